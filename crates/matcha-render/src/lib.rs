@@ -1,0 +1,2 @@
+//! Scene, geometry, lights, closures, sampling, integrator and film.
+pub mod scene;

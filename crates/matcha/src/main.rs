@@ -1,0 +1,2 @@
+//! The `matcha` command.
+fn main() {}
