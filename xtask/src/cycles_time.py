@@ -1,0 +1,36 @@
+"""Arguments: scene samples WxH. Prints "CYCLES seconds": the time of the samples alone."""
+import sys
+import tempfile
+import time
+
+import bpy
+
+scene_path, samples, size = sys.argv[1:4]
+bpy.ops.wm.open_mainfile(filepath=scene_path)
+scene = bpy.context.scene
+width, height = (int(side) for side in size.lower().split("x"))
+scene.render.engine = "CYCLES"
+scene.cycles.device = "CPU"
+scene.cycles.use_adaptive_sampling = False
+scene.cycles.use_denoising = False
+scene.render.resolution_x, scene.render.resolution_y = width, height
+scene.render.resolution_percentage = 100
+scene.render.use_persistent_data = True
+scene.render.use_compositing = False
+scene.render.use_sequencer = False
+
+
+def seconds(count):
+    scene.cycles.samples = count
+    scene.render.filepath = tempfile.mktemp(suffix=".exr")
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    start = time.perf_counter()
+    bpy.ops.render.render(write_still=False)
+    return time.perf_counter() - start
+
+
+# The first render builds everything and keeps it (persistent data); of the next two,
+# the difference is what the samples cost.
+seconds(1)
+base = seconds(1)
+print("CYCLES", (seconds(int(samples)) - base) * int(samples) / (int(samples) - 1), flush=True)
