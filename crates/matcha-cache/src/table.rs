@@ -1,0 +1,281 @@
+//! The table: algorithm 1 of Fujieda and Harada 2022, and its reading side.
+
+use crate::batch::HashBlock;
+use crate::device::key_hash::{KeyHash, NodeSeed, cell_of, hash_texel, seed_of_node};
+use crate::storage::Storage;
+use crate::sync::{AtomicU64, Ordering};
+use crate::{CacheCounts, CacheError, TableSize, available_memory};
+
+/// What became of an insertion. Whatever it is, the value that was to be stored is
+/// good: the caller goes on with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Insertion {
+    /// Written.
+    Stored,
+    /// The key has a value already; the first one stays.
+    Present,
+    /// All entries of the cell belong to other keys.
+    Full,
+    /// Another thread took the entry in the same moment.
+    Lost,
+}
+
+/// Seed of a cacheable node's keys. `part` is 0, and counts up for values that take
+/// several words.
+pub fn node_seed(material: u32, node: u32, part: u32) -> NodeSeed {
+    seed_of_node(material, node, part)
+}
+
+/// A fixed table of `cells × entries` entries, shared by all threads.
+pub struct Table {
+    storage: Storage,
+    size: TableSize,
+    pub(crate) hash_block: HashBlock,
+}
+
+impl core::fmt::Debug for Table {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Table")
+            .field("size", &self.size)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Table {
+    /// An empty table. Memory is taken from the system as entries are written, but a
+    /// table larger than what is available now is refused.
+    pub fn new(size: TableSize) -> Result<Self, CacheError> {
+        size.check()?;
+        if let Some(available) = available_memory().filter(|&rest| size.bytes() > rest) {
+            let TableSize { cells, entries } = size;
+            return Err(CacheError::TooLarge {
+                cells,
+                entries,
+                bytes: size.bytes(),
+                available,
+            });
+        }
+        let length = usize::try_from(size.capacity()).map_err(|_| CacheError::Refused {
+            bytes: size.bytes(),
+        })?;
+        Ok(Self {
+            storage: Storage::new(length)?,
+            size,
+            hash_block: HashBlock::for_this_cpu(),
+        })
+    }
+
+    /// Its size.
+    pub fn size(&self) -> TableSize {
+        self.size
+    }
+
+    /// Number of entries that hold something, by looking at all of them: for tests.
+    /// The sum of [`CacheCounts::inserts`] tells the same without.
+    pub fn count_occupied(&self) -> u64 {
+        let occupied = |word: &&AtomicU64| word.load(Ordering::Relaxed) != 0;
+        self.storage.words().iter().filter(occupied).count() as u64
+    }
+
+    /// The word stored for a texel of a node.
+    pub fn look_up(
+        &self,
+        node: NodeSeed,
+        texel: [i32; 3],
+        counts: &mut CacheCounts,
+    ) -> Option<u32> {
+        counts.lookups += 1;
+        let found = self.find(self.hash(node, texel));
+        counts.hits += u64::from(found.is_some());
+        found
+    }
+
+    /// Stores a word for a texel of a node, if there is room and nobody is faster.
+    pub fn insert(
+        &self,
+        node: NodeSeed,
+        texel: [i32; 3],
+        value: u32,
+        counts: &mut CacheCounts,
+    ) -> Insertion {
+        let outcome = self.put(self.hash(node, texel), value);
+        counts.count(outcome);
+        outcome
+    }
+
+    fn hash(&self, node: NodeSeed, [level, i, j]: [i32; 3]) -> KeyHash {
+        hash_texel(node, level, i, j)
+    }
+
+    /// The entries of the cell that a hash names.
+    #[inline(always)]
+    pub(crate) fn cell(&self, hash: u32) -> &[AtomicU64] {
+        let entries = self.size.entries as usize;
+        let first = cell_of(hash, self.size.cells as u32) as usize * entries;
+        &self.storage.words()[first..first + entries]
+    }
+
+    fn find(&self, hash: KeyHash) -> Option<u32> {
+        for entry in self.cell(hash.cell) {
+            let word = entry.load(Ordering::Relaxed);
+            if fingerprint_of(word) == hash.fingerprint {
+                return Some(value_of(word));
+            }
+            if word == EMPTY {
+                return None;
+            }
+        }
+        None
+    }
+
+    pub(crate) fn put(&self, hash: KeyHash, value: u32) -> Insertion {
+        for entry in self.cell(hash.cell) {
+            let word = entry.load(Ordering::Relaxed);
+            if fingerprint_of(word) == hash.fingerprint {
+                return Insertion::Present;
+            }
+            if word == EMPTY {
+                let new = word_of(hash.fingerprint, value);
+                let swap = entry.compare_exchange(EMPTY, new, Ordering::Relaxed, Ordering::Relaxed);
+                return if swap.is_ok() {
+                    Insertion::Stored
+                } else {
+                    Insertion::Lost
+                };
+            }
+        }
+        Insertion::Full
+    }
+}
+
+/// An entry that nobody has written. No fingerprint is zero, so no written one is this.
+pub(crate) const EMPTY: u64 = 0;
+
+fn word_of(fingerprint: u32, value: u32) -> u64 {
+    u64::from(fingerprint) << 32 | u64::from(value)
+}
+
+#[inline(always)]
+pub(crate) fn fingerprint_of(word: u64) -> u32 {
+    (word >> 32) as u32
+}
+
+#[inline(always)]
+pub(crate) fn value_of(word: u64) -> u32 {
+    word as u32
+}
+
+#[cfg(all(test, not(loom)))]
+mod tests {
+    use super::*;
+
+    fn table(cells: u64, entries: u32) -> Table {
+        Table::new(TableSize { cells, entries }).unwrap()
+    }
+
+    #[test]
+    fn the_first_value_stays() {
+        let table = table(16, 4);
+        let node = node_seed(1, 2, 0);
+        let mut counts = CacheCounts::default();
+        assert_eq!(table.look_up(node, [3, -4, 5], &mut counts), None);
+        assert_eq!(
+            table.insert(node, [3, -4, 5], 7, &mut counts),
+            Insertion::Stored
+        );
+        assert_eq!(
+            table.insert(node, [3, -4, 5], 8, &mut counts),
+            Insertion::Present
+        );
+        assert_eq!(table.look_up(node, [3, -4, 5], &mut counts), Some(7));
+        let expected = CacheCounts {
+            lookups: 2,
+            hits: 1,
+            inserts: 1,
+            present: 1,
+            ..CacheCounts::default()
+        };
+        assert_eq!(counts, expected);
+        assert_eq!(table.count_occupied(), 1);
+    }
+
+    #[test]
+    fn a_full_cell_refuses_and_keeps_what_it_has() {
+        let table = table(1, 3);
+        let node = node_seed(0, 0, 0);
+        let mut counts = CacheCounts::default();
+        for i in 0..5 {
+            let expected = if i < 3 {
+                Insertion::Stored
+            } else {
+                Insertion::Full
+            };
+            assert_eq!(
+                table.insert(node, [0, i, 0], i as u32, &mut counts),
+                expected
+            );
+        }
+        for i in 0..5 {
+            let expected = (i < 3).then_some(i as u32);
+            assert_eq!(table.look_up(node, [0, i, 0], &mut counts), expected);
+        }
+        assert_eq!(counts.refused, 2);
+    }
+
+    #[test]
+    fn value_zero_is_a_value() {
+        let table = table(1, 1);
+        let mut counts = CacheCounts::default();
+        table.insert(node_seed(0, 0, 0), [0, 0, 0], 0, &mut counts);
+        assert_eq!(
+            table.look_up(node_seed(0, 0, 0), [0, 0, 0], &mut counts),
+            Some(0)
+        );
+    }
+
+    /// The hash is a bijection, so the key whose raw fingerprint is zero exists, but not
+    /// within reach of a search; the remapped fingerprint is put and found as any other.
+    #[test]
+    fn the_fingerprint_that_stands_for_zero_works() {
+        let table = table(1, 2);
+        let zero = KeyHash {
+            cell: 0,
+            fingerprint: 0xFFFF_FFFF,
+        };
+        assert_eq!(table.find(zero), None);
+        assert_eq!(table.put(zero, 0), Insertion::Stored);
+        assert_eq!(
+            table.put(
+                KeyHash {
+                    cell: 0,
+                    fingerprint: 1
+                },
+                0
+            ),
+            Insertion::Stored
+        );
+        assert_eq!(table.find(zero), Some(0));
+        assert_eq!(
+            table.find(KeyHash {
+                cell: 0,
+                fingerprint: 2
+            }),
+            None
+        );
+    }
+
+    #[test]
+    fn a_table_beyond_memory_is_refused_in_a_sentence() {
+        let error = Table::new(TableSize {
+            cells: 4_000_000_000,
+            entries: 1024,
+        })
+        .unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .contains("4000000000 cells of 1024 entries"),
+            "{error}"
+        );
+    }
+}
