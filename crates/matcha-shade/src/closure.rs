@@ -104,6 +104,19 @@ const GLOSSY: &[Parameter] = &[
     p("tangent", Ty::F3),
 ];
 
+/// The closure's own colour, without mix factors: light that scatters several times
+/// inside the closure is tinted each time, so that the weight alone is not enough.
+const COLOR: Parameter = p("color", Ty::F3);
+
+const GLOSSY_MULTIPLE: &[Parameter] = &[
+    ROUGHNESS,
+    p("anisotropy", Ty::F1),
+    p("rotation", Ty::F1),
+    NORMAL,
+    p("tangent", Ty::F3),
+    COLOR,
+];
+
 const SUBSURFACE: &[Parameter] = &[
     p("scale", Ty::F1),
     p("radius", Ty::F3),
@@ -154,15 +167,26 @@ impl ClosureKind {
             | ClosureKind::Background
             | ClosureKind::Transparent
             | ClosureKind::Holdout => &[],
-            ClosureKind::Diffuse | ClosureKind::Sheen(_) => const { &[ROUGHNESS, NORMAL] },
+            ClosureKind::Diffuse => const { &[ROUGHNESS, NORMAL, COLOR] },
+            ClosureKind::Sheen(_) => const { &[ROUGHNESS, NORMAL] },
             ClosureKind::Translucent => const { &[NORMAL] },
+            ClosureKind::Glossy(Distribution::MultiGgx) => GLOSSY_MULTIPLE,
             ClosureKind::Glossy(_) => GLOSSY,
+            ClosureKind::Glass(Distribution::MultiGgx) => {
+                const { &[ROUGHNESS, p("ior", Ty::F1), NORMAL, COLOR] }
+            }
             ClosureKind::Glass(_) | ClosureKind::Refraction(_) => {
                 const { &[ROUGHNESS, p("ior", Ty::F1), NORMAL] }
             }
             ClosureKind::Subsurface => SUBSURFACE,
             ClosureKind::Principled(_) => PRINCIPLED,
         }
+    }
+
+    /// Whether the last parameter is the closure's own colour, which
+    /// `ClosureTree::leaf` takes from the leaf's weight.
+    pub fn carries_color(self) -> bool {
+        self.parameters().last() == Some(&COLOR)
     }
 
     /// Rows of weight and parameters together.
