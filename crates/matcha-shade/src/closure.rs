@@ -191,6 +191,10 @@ impl ClosureKind {
 
     /// Rows of weight and parameters together.
     pub fn rows(self) -> usize {
-        3 + self.parameters().iter().map(|p| p.ty.width()).sum::<usize>()
+        3 + self
+            .parameters()
+            .iter()
+            .map(|p| p.ty.width())
+            .sum::<usize>()
     }
 }

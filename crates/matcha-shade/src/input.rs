@@ -151,7 +151,14 @@ impl InputKind {
         use InputKind::*;
         matches!(
             self,
-            Uv(_) | Position | Generated | Object | Camera | Window | Parametric | Attribute(_)
+            Uv(_)
+                | Position
+                | Generated
+                | Object
+                | Camera
+                | Window
+                | Parametric
+                | Attribute(_)
                 | Normal
         )
     }
