@@ -41,7 +41,7 @@ mod zeroed {
 
     impl Storage {
         pub(crate) fn new(length: usize) -> Result<Self, CacheError> {
-            let bytes = length.checked_mul(8).unwrap_or(usize::MAX);
+            let bytes = length.saturating_mul(8);
             let refused = CacheError::Refused {
                 bytes: bytes as u64,
             };

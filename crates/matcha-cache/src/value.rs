@@ -151,10 +151,10 @@ mod tests {
             let value = kind.decode(words);
             let parts: Vec<[u32; 3]> = words.iter().map(|&word| [word; 3]).collect();
             let parts: Vec<&[u32]> = parts.iter().map(|part| &part[..]).collect();
-            for component in 0..kind.width() {
+            for (component, &single) in value[..kind.width()].iter().enumerate() {
                 let mut row = [f32::NAN; 3];
                 kind.decode_component(component, &parts[..kind.words()], &mut row);
-                assert_eq!(row, [value[component]; 3], "{kind:?} {component}");
+                assert_eq!(row, [single; 3], "{kind:?} {component}");
             }
         }
     }
