@@ -1,11 +1,13 @@
 //! Materials: from a node tree to a program, and the machine that runs it.
 pub mod closure;
+pub mod compile;
 pub mod device;
 pub mod graph;
 pub mod input;
 pub mod material;
 pub mod ops;
 pub mod program;
+pub mod rows;
 mod shifted;
 pub mod source;
 pub mod vm;

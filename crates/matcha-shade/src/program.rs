@@ -1,13 +1,44 @@
 //! A compiled material: fixed-width words in execution order.
+//!
+//! First come the regions, one for each cacheable node: `lookup`, the node's words,
+//! `store`. A region reads only its virtual texel and constants and leaves only its
+//! result, so a hit that skips it leaves nothing undefined. Then come the other words.
+
+mod disassemble;
+mod verify;
+
+pub use verify::ProgramError;
+
+use crate::closure::{ClosureKind, Ty};
+use crate::graph::{Encoding, Table, TextureRef};
+use crate::input::Input;
+use crate::material::MaterialKind;
+use crate::ops::OpCode;
+use crate::vm::kernel::LANES;
+use std::ops::Range;
 
 /// Bit of an operand that names a constant row instead of a register.
 pub const CONSTANT: u16 = 0x8000;
 
+/// Word codes that are not operations of the table.
+pub mod special {
+    /// Image `aux` at (uv, da, db); four results.
+    pub const TEXTURE: u16 = 0xff00;
+    /// Table `aux` at one operand; as many results as the table has rows.
+    pub const TABLE: u16 = 0xff01;
+    /// Region `aux` begins. On a hit in the cache the result's registers are set and
+    /// the words up to and with the region's `store` are skipped. On a miss `dst` and
+    /// the two registers after it become the texel's centre (u, v) and its size.
+    pub const LOOKUP: u16 = 0xff02;
+    /// Region `aux` ends: the operands are stored and copied to the result's registers.
+    pub const STORE: u16 = 0xff03;
+}
+
 /// One instruction, 32 bytes.
 #[repr(C, align(32))]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Word {
-    /// An operation's index in the table, or one of the codes below.
+    /// An operation's index in the table, or one of [`special`].
     pub op: u16,
     /// First register of the result.
     pub dst: u16,
@@ -15,4 +46,154 @@ pub struct Word {
     pub src: [u16; 12],
     /// Immediate.
     pub aux: u32,
+}
+
+/// A cacheable node of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// Number in the program, the `node` of a cache key.
+    pub node: u32,
+    /// The UV set that it depends on.
+    pub uv_set: u16,
+    /// Type of its value.
+    pub ty: Ty,
+    /// How its value is packed.
+    pub encoding: Encoding,
+    /// Its words, from `lookup` to after `store`.
+    pub words: Range<usize>,
+    /// First register of the result.
+    pub result: u16,
+    /// First input rows of its UV set: value, change along axis A, along axis B.
+    pub uv_rows: [usize; 3],
+    /// Estimated cost of evaluating it, ns a point.
+    pub cost: f32,
+}
+
+/// Where a closure's rows are in the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClosureOutput {
+    /// Which closure: its parameters follow its weight.
+    pub kind: ClosureKind,
+    /// Row of the weight's first component.
+    pub first_row: usize,
+}
+
+/// One splatted constant.
+#[repr(C, align(64))]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Splat(pub(crate) [f32; LANES]);
+
+/// A program, verified.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// The material's name.
+    pub name: String,
+    /// What it belongs to.
+    pub kind: MaterialKind,
+    /// What it reads, with the first row of each in the input matrix.
+    pub inputs: Vec<(Input, usize)>,
+    /// Rows of the input matrix; they are loaded into the registers of the same number.
+    pub input_rows: usize,
+    /// The words: regions first.
+    pub words: Vec<Word>,
+    /// Registers that the machine needs.
+    pub slots: usize,
+    /// Cacheable nodes, in the order of their words.
+    pub regions: Vec<Region>,
+    /// Constants by index.
+    pub constants: Vec<f32>,
+    /// Images by index.
+    pub textures: Vec<TextureRef>,
+    /// Ramps and curves by index.
+    pub tables: Vec<Table>,
+    /// Closures in order.
+    pub closures: Vec<ClosureOutput>,
+    /// The operand (register or constant) that each output row is read from.
+    pub outputs: Vec<u16>,
+    /// Estimated cost without the cache, ns a point.
+    pub cost: f32,
+    pub(crate) splats: Vec<Splat>,
+}
+
+impl Program {
+    /// Rows of the output matrix.
+    pub fn output_rows(&self) -> usize {
+        self.outputs.len()
+    }
+
+    /// The first input row of a quantity, if the program reads it.
+    pub fn input_row(&self, input: Input) -> Option<usize> {
+        self.inputs
+            .iter()
+            .find(|(i, _)| *i == input)
+            .map(|(_, row)| *row)
+    }
+
+    /// First word after the regions.
+    pub fn rest(&self) -> usize {
+        self.regions.last().map_or(0, |r| r.words.end)
+    }
+
+    /// Whether any closure emits light that is not known to be black.
+    pub fn has_emission(&self) -> bool {
+        self.closures.iter().any(|c| match c.kind {
+            ClosureKind::Emission | ClosureKind::Background => {
+                self.may_differ(c.first_row..c.first_row + 3, 0.0)
+            }
+            ClosureKind::Principled(_) => {
+                let strength = self.parameter_rows(c, "emission_strength");
+                let color = self.parameter_rows(c, "emission_color");
+                self.may_differ(strength, 0.0) && self.may_differ(color, 0.0)
+            }
+            _ => false,
+        })
+    }
+
+    /// Whether light may pass straight through, so that shadow rays must evaluate it.
+    pub fn has_transparency(&self) -> bool {
+        self.closures.iter().any(|c| match c.kind {
+            ClosureKind::Transparent | ClosureKind::Holdout => true,
+            ClosureKind::Principled(_) => self.may_differ(self.parameter_rows(c, "alpha"), 1.0),
+            _ => false,
+        })
+    }
+
+    /// Output rows of a closure's parameter.
+    ///
+    /// # Panics
+    /// If the closure has no parameter of that name.
+    pub fn parameter_rows(&self, closure: &ClosureOutput, name: &str) -> Range<usize> {
+        let mut row = closure.first_row + 3;
+        for parameter in closure.kind.parameters() {
+            let rows = row..row + parameter.ty.width();
+            if parameter.name == name {
+                return rows;
+            }
+            row = rows.end;
+        }
+        panic!("{:?} has no parameter {name}", closure.kind)
+    }
+
+    /// The constant that an output row always has, if it is one.
+    pub fn constant_output(&self, row: usize) -> Option<f32> {
+        let operand = self.outputs[row];
+        (operand & CONSTANT != 0).then(|| self.constants[(operand & !CONSTANT) as usize])
+    }
+
+    fn may_differ(&self, mut rows: Range<usize>, from: f32) -> bool {
+        rows.any(|row| self.constant_output(row) != Some(from))
+    }
+
+    /// Bytes of the program's words, constants and tables.
+    pub fn bytes(&self) -> usize {
+        let tables: usize = self.tables.iter().flat_map(|t| &t.rows).map(Vec::len).sum();
+        size_of_val(&self.words[..]) + size_of_val(&self.splats[..]) + tables * size_of::<f32>()
+    }
+}
+
+impl Word {
+    /// The word's operation, unless it is special.
+    pub fn operation(&self) -> Option<OpCode> {
+        (self.op < special::TEXTURE).then_some(OpCode(self.op))
+    }
 }

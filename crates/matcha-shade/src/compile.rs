@@ -1,0 +1,76 @@
+//! From a lowered material to a program.
+
+use crate::material::MaterialGraph;
+use crate::program::{Program, ProgramError};
+
+/// Estimated costs, ns a point in lanes, of what is not an operation of the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CostModel {
+    /// A look-up in the material cache, batched. A node is cached if it costs more.
+    /// With 0 every highest node is cached, as in the paper.
+    pub lookup_ns: f32,
+    /// An image look-up.
+    pub texture_ns: f32,
+    /// A ramp's or curve's look-up.
+    pub table_ns: f32,
+}
+
+impl Default for CostModel {
+    fn default() -> Self {
+        CostModel {
+            lookup_ns: 25.0,
+            texture_ns: 80.0,
+            table_ns: 3.0,
+        }
+    }
+}
+
+/// How to compile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Whether cacheable nodes get regions.
+    pub cache: bool,
+    /// Whether the graph is optimised; off only in tests.
+    pub optimise: bool,
+    /// Costs.
+    pub cost: CostModel,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            cache: true,
+            optimise: true,
+            cost: CostModel::default(),
+        }
+    }
+}
+
+/// A graph's size after a pass.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PassStatistics {
+    /// The pass.
+    pub pass: &'static str,
+    /// Nodes that the closures need.
+    pub nodes: usize,
+    /// Those of them that are operations, images or table look-ups.
+    pub operations: usize,
+}
+
+/// A program and how it came about.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// What the machine runs.
+    pub program: Program,
+    /// Sizes, in order of the passes.
+    pub passes: Vec<PassStatistics>,
+}
+
+/// Compiles a material.
+pub fn compile(_material: &MaterialGraph, _options: &Options) -> Result<Compiled, ProgramError> {
+    Err(ProgramError::TooLarge {
+        what: "words",
+        count: 0,
+        limit: 0,
+    })
+}
