@@ -9,6 +9,7 @@
 //! And nothing is dropped in silence: what is not supported is in the [`Report`], once per
 //! kind, with what is rendered in its place.
 
+mod blend;
 mod budget;
 mod error;
 mod file;
@@ -26,6 +27,7 @@ use file::Document;
 use file::resource::Folder;
 use matcha_render::scene::Scene;
 use plain::texture::Textures;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// How to load.
@@ -73,28 +75,61 @@ pub struct Imported {
     pub report: Report,
 }
 
-/// Loads a scene file.
+/// Loads a scene file: glTF directly, a `.blend` through Blender.
 pub fn load(
     path: &Path,
     options: &LoadOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Imported, ImportError> {
-    let read = |file: &Path| {
-        std::fs::read(file).map_err(|source| ImportError::Read {
-            file: file.to_owned(),
-            source,
-        })
+    let glb = match format(path)? {
+        Format::Gltf => path.to_owned(),
+        Format::Blend => blend::export(path, options, progress)?,
     };
-    let bytes = read(path)?;
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let mut imported = load_from(&bytes, Folder(Some(folder)), options, progress)
-        .map_err(|fault| fault.in_file(path))?;
+    let bytes = std::fs::read(&glb).map_err(|source| ImportError::Read {
+        file: glb.clone(),
+        source,
+    })?;
+    let folder = Folder(Some(glb.parent().unwrap_or(Path::new("."))));
+    let mut imported =
+        load_from(&bytes, folder, options, progress).map_err(|fault| fault.in_file(&glb))?;
     imported.scene.name = path
         .file_stem()
         .map(|stem| stem.to_string_lossy().into_owned())
         .unwrap_or_default();
     imported.report.check(options.strict)?;
     Ok(imported)
+}
+
+enum Format {
+    Gltf,
+    Blend,
+}
+
+/// By the first bytes, then by the name: compressed `.blend` files and JSON have no telling first bytes.
+fn format(path: &Path) -> Result<Format, ImportError> {
+    let refuse = |source| ImportError::Read {
+        file: path.to_owned(),
+        source,
+    };
+    let mut start = Vec::new();
+    std::fs::File::open(path)
+        .map_err(refuse)?
+        .take(7)
+        .read_to_end(&mut start)
+        .map_err(refuse)?;
+    let extension = path
+        .extension()
+        .map(|e| e.to_string_lossy().to_ascii_lowercase())
+        .unwrap_or_default();
+    match extension.as_str() {
+        _ if file::glb::is_glb(&start) => Ok(Format::Gltf),
+        _ if start == b"BLENDER" => Ok(Format::Blend),
+        "glb" | "gltf" => Ok(Format::Gltf),
+        "blend" => Ok(Format::Blend),
+        _ => Err(ImportError::UnknownFormat {
+            file: path.to_owned(),
+        }),
+    }
 }
 
 /// Loads a glTF scene from memory: a `.glb`, or the JSON of a `.gltf` that refers to no other file.

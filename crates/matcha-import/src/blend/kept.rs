@@ -1,0 +1,191 @@
+//! Exports that are kept. The name holds a hash of the `.blend`'s content and of the
+//! exporter; a small JSON beside it lists the other files that went in (textures,
+//! libraries) with size and time, so that a changed texture is exported again.
+
+use super::EXPORTER;
+use crate::error::ImportError;
+use crate::file::glb;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+/// The place of a scene's export.
+pub(super) struct Kept {
+    pub glb: PathBuf,
+    sources: PathBuf,
+    /// Beginning of the names of all exports of this scene, also of its older versions.
+    prefix: String,
+}
+
+/// A file that went into an export.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct SourceFile {
+    path: PathBuf,
+    /// Bytes; none where the file did not exist.
+    size: Option<u64>,
+    /// Nanoseconds since 1970.
+    modified: u64,
+}
+
+impl SourceFile {
+    fn of(path: PathBuf) -> Self {
+        let meta = fs::metadata(&path).ok();
+        let modified = meta
+            .as_ref()
+            .and_then(|m| m.modified().ok())
+            .and_then(|t| t.duration_since(UNIX_EPOCH).ok());
+        Self {
+            path,
+            size: meta.map(|m| m.len()),
+            modified: modified.map_or(0, |age| age.as_nanos() as u64),
+        }
+    }
+}
+
+impl Kept {
+    /// Hashes the scene and names its export; the folder exists afterwards.
+    pub fn locate(blend: &Path, chosen: Option<&Path>) -> Result<Self, ImportError> {
+        let read = |source| ImportError::Read {
+            file: blend.to_owned(),
+            source,
+        };
+        let mut hasher = blake3::Hasher::new();
+        io::copy(&mut fs::File::open(blend).map_err(read)?, &mut hasher).map_err(read)?;
+        for (name, content) in EXPORTER {
+            hasher.update(name.as_bytes()).update(content);
+        }
+        let content = hasher.finalize().to_hex();
+        let full = fs::canonicalize(blend).map_err(read)?;
+        let path = blake3::hash(full.as_os_str().as_encoded_bytes()).to_hex();
+        let stem = blend.file_stem().unwrap_or_default().to_string_lossy();
+        let prefix = format!("{stem}-{}-", &path[..8]);
+        let folder = folder(blend, chosen)?;
+        let name = format!("{prefix}{}", &content[..24]);
+        Ok(Self {
+            glb: folder.join(format!("{name}.matcha.glb")),
+            sources: folder.join(format!("{name}.sources.json")),
+            prefix,
+        })
+    }
+
+    /// True if the export is there, and none of its sources has changed.
+    pub fn is_valid(&self) -> bool {
+        let listed: Option<Vec<SourceFile>> = fs::read(&self.sources)
+            .ok()
+            .and_then(|bytes| serde_json::from_slice(&bytes).ok());
+        self.glb.is_file()
+            && listed.is_some_and(|list| {
+                list.iter()
+                    .all(|file| SourceFile::of(file.path.clone()) == *file)
+            })
+    }
+
+    /// A name beside the export that no other process uses.
+    pub fn partial(&self) -> PathBuf {
+        self.glb
+            .with_extension(format!("partial-{}.glb", std::process::id()))
+    }
+
+    /// Moves a finished export to its place and forgets the older ones of the same scene.
+    pub fn keep(&self, partial: &Path) -> Result<(), ImportError> {
+        let write = |source| ImportError::Write {
+            file: self.glb.clone(),
+            source,
+        };
+        let sources: Vec<SourceFile> = external_files(partial)
+            .into_iter()
+            .map(SourceFile::of)
+            .collect();
+        fs::rename(partial, &self.glb).map_err(write)?;
+        let json = serde_json::to_vec_pretty(&sources).map_err(|e| write(io::Error::other(e)))?;
+        let beside = self
+            .sources
+            .with_extension(format!("partial-{}", std::process::id()));
+        fs::write(&beside, json)
+            .and_then(|()| fs::rename(&beside, &self.sources))
+            .map_err(write)?;
+        self.forget_older();
+        Ok(())
+    }
+
+    fn forget_older(&self) {
+        let Some(entries) = self
+            .glb
+            .parent()
+            .and_then(|folder| fs::read_dir(folder).ok())
+        else {
+            return;
+        };
+        for path in entries.flatten().map(|entry| entry.path()) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let ours = name.starts_with(&self.prefix)
+                && (name.ends_with(".matcha.glb") || name.ends_with(".sources.json"));
+            if ours && path != self.glb && path != self.sources {
+                // Nothing depends on it being gone.
+                let _ = fs::remove_file(&path);
+            }
+        }
+    }
+}
+
+/// The files that an export says it was made from.
+fn external_files(glb: &Path) -> Vec<PathBuf> {
+    let Ok(bytes) = fs::read(glb) else {
+        return Vec::new();
+    };
+    let Ok(chunks) = glb::split(&bytes) else {
+        return Vec::new();
+    };
+    let Ok(json) = serde_json::from_slice::<serde_json::Value>(chunks.json) else {
+        return Vec::new();
+    };
+    let list = json
+        .pointer("/extensions/MATCHA_cycles/external_files")
+        .and_then(|list| list.as_array());
+    list.into_iter()
+        .flatten()
+        .filter_map(|path| path.as_str().map(PathBuf::from))
+        .collect()
+}
+
+/// The first of the chosen folder, the user's cache folder and the scene's own that can be written.
+fn folder(blend: &Path, chosen: Option<&Path>) -> Result<PathBuf, ImportError> {
+    let variable = |name| {
+        std::env::var_os(name)
+            .filter(|value| !value.is_empty())
+            .map(PathBuf::from)
+    };
+    let user =
+        variable("XDG_CACHE_HOME").or_else(|| variable("HOME").map(|home| home.join(".cache")));
+    let beside = blend.parent().unwrap_or(Path::new("")).to_owned();
+    let beside = if beside.as_os_str().is_empty() {
+        PathBuf::from(".")
+    } else {
+        beside
+    };
+    let candidates = match chosen {
+        Some(chosen) => vec![chosen.to_owned()],
+        None => user
+            .map(|user| user.join("matcha"))
+            .into_iter()
+            .chain([beside])
+            .collect(),
+    };
+    let mut last = None;
+    for folder in candidates {
+        match fs::create_dir_all(&folder).and_then(|()| tempfile::tempfile_in(&folder).map(drop)) {
+            Ok(()) => return Ok(folder),
+            Err(source) => {
+                last = Some(ImportError::Write {
+                    file: folder,
+                    source,
+                })
+            }
+        }
+    }
+    Err(last.unwrap_or(ImportError::UnknownFormat {
+        file: blend.to_owned(),
+    }))
+}

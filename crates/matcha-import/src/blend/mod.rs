@@ -1,0 +1,56 @@
+//! `.blend` files: only Blender can read them, so Blender exports them, with the add-on
+//! that is embedded here, into a `.glb` that is kept for the next time.
+
+mod kept;
+mod program;
+mod run;
+
+use crate::error::ImportError;
+use crate::{LoadOptions, Progress};
+use kept::Kept;
+use std::path::{Path, PathBuf};
+
+/// The add-on's files: path below `blender/`, content.
+static EXPORTER: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/exporter_files.rs"));
+
+/// The `.glb` of a `.blend` file: the kept one if nothing has changed, otherwise a new one.
+pub(crate) fn export(
+    blend: &Path,
+    options: &LoadOptions,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<PathBuf, ImportError> {
+    let kept = Kept::locate(blend, options.cache_dir.as_deref())?;
+    if kept.is_valid() {
+        return Ok(kept.glb);
+    }
+    let program = program::find(blend, options.blender.as_deref())?;
+    let fail = |reason: String| ImportError::Export {
+        file: blend.to_owned(),
+        program: program.path().to_owned(),
+        reason,
+    };
+    let scripts = write_exporter()
+        .map_err(|error| fail(format!("the exporter cannot be written: {error}")))?;
+    let partial = kept.partial();
+    let result = run::run(&program, blend, &partial, scripts.path(), progress);
+    if let Err(reason) = result {
+        let _ = std::fs::remove_file(&partial);
+        return Err(fail(reason));
+    }
+    kept.keep(&partial)?;
+    Ok(kept.glb)
+}
+
+fn write_exporter() -> std::io::Result<tempfile::TempDir> {
+    let folder = tempfile::Builder::new()
+        .prefix("matcha-exporter-")
+        .tempdir()?;
+    for (name, content) in EXPORTER {
+        let path = folder.path().join(name);
+        if let Some(parent) = path.parent() {
+            std::fs::create_dir_all(parent)?;
+        }
+        std::fs::write(path, content)?;
+    }
+    Ok(folder)
+}
