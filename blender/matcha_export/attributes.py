@@ -1,0 +1,45 @@
+"""Mesh attributes as arrays over face corners."""
+
+import numpy as np
+
+# Blender's attribute types that a shader can read: components, RNA field, what they mean.
+READABLE = {
+    "FLOAT": (1, "value", "FLOAT"),
+    "INT": (1, "value", "FLOAT"),
+    "INT8": (1, "value", "FLOAT"),
+    "BOOLEAN": (1, "value", "FLOAT"),
+    "FLOAT2": (2, "vector", "VECTOR"),
+    "FLOAT_VECTOR": (3, "vector", "VECTOR"),
+    "FLOAT_COLOR": (4, "color", "COLOR"),
+    # RNA's `color` of a byte colour is linear already.
+    "BYTE_COLOR": (4, "color", "COLOR"),
+}
+
+
+def read(attribute):
+    """(n, components) floats in the attribute's own domain, or None where it is not readable."""
+    if attribute.data_type not in READABLE:
+        return None
+    width, name, _ = READABLE[attribute.data_type]
+    count = len(attribute.data)
+    dtype = {"INT": np.int32, "INT8": np.int32, "BOOLEAN": bool}.get(attribute.data_type, np.float32)
+    flat = np.empty(count * width, dtype=dtype)
+    attribute.data.foreach_get(name, flat)
+    return flat.astype(np.float32).reshape(count, width)
+
+
+def on_corners(attribute, corner_vertices, corner_faces):
+    """The attribute at each face corner, or None."""
+    values = read(attribute)
+    if values is None or not len(values):
+        return None
+    if attribute.domain == "POINT":
+        return values[corner_vertices]
+    if attribute.domain == "FACE":
+        return values[corner_faces]
+    return values if attribute.domain == "CORNER" else None
+
+
+def meaning(attribute):
+    """`FLOAT`, `VECTOR` or `COLOR`."""
+    return READABLE[attribute.data_type][2]

@@ -1,0 +1,96 @@
+"""glTF meshes, each evaluated mesh once."""
+
+from . import geometry
+from .glb import ELEMENT_ARRAY_BUFFER
+from .numbers import numbers
+
+
+class Meshes:
+    """Meshes by data-block and slots; equal content is stored once."""
+
+    def __init__(self, glb, materials, report):
+        self.glb = glb
+        self.materials = materials
+        self.report = report
+        self._known = {}
+        self._by_content = {}
+
+    def add(self, key, name, mesh, slots):
+        """Index of a glTF mesh, or None where there is nothing to see.
+
+        `key` identifies the evaluated data, `slots` are the material indices of the mesh's own
+        slots. `mesh` is a function, called only for data that was not met before.
+        """
+        key = (key, slots)
+        if key not in self._known:
+            self._known[key] = self._store(name, mesh(), slots)
+        return self._known[key]
+
+    def _store(self, name, mesh, slots):
+        def warn(text):
+            self.report.warning(f"mesh {name}: {text}")
+
+        needs = self.materials.needs(slots)
+        parts = geometry.extract(mesh, len(slots), needs, warn)
+        if parts is None:
+            return None
+        semantics, about = self._accessors(parts)
+        origin, size = geometry.texture_space(mesh)
+        about |= {
+            "generated_origin": numbers(origin),
+            "generated_size": numbers(size),
+            "active_uv": active_uv(mesh),
+            "active_color": geometry.render_color(mesh),
+            "material_slots": list(slots),
+        }
+        primitives = [
+            {
+                "attributes": semantics,
+                "indices": self.glb.accessor(indices, ELEMENT_ARRAY_BUFFER),
+                "material": slots[slot],
+                "extensions": {"MATCHA_cycles": {"slot": slot}},
+            }
+            for slot, indices in parts.triangles
+        ]
+        return self._unique({"name": name, "primitives": primitives, "extensions": {"MATCHA_cycles": about}})
+
+    def _unique(self, entry):
+        # Equal bytes share their buffer views, so that equal views mean equal geometry.
+        views = self.glb.root["accessors"]
+
+        def content(index):
+            accessor = views[index]
+            return accessor["bufferView"], accessor["componentType"], accessor["type"]
+
+        def shape(primitive):
+            semantics = tuple((k, content(a)) for k, a in sorted(primitive["attributes"].items()))
+            return semantics, content(primitive["indices"]), primitive["material"]
+
+        about = entry["extensions"]["MATCHA_cycles"]
+        key = (tuple(shape(p) for p in entry["primitives"]), repr(sorted(about.items())))
+        if key not in self._by_content:
+            self._by_content[key] = self.glb.append("meshes", entry)
+        return self._by_content[key]
+
+    def _accessors(self, parts):
+        glb = self.glb
+        semantics = {
+            "POSITION": glb.accessor(parts.positions, bounds=True),
+            "NORMAL": glb.accessor(parts.normals),
+        }
+        about = {"uv": [], "attributes": []}
+        for i, (name, array) in enumerate(parts.uvs):
+            semantics[f"TEXCOORD_{i}"] = glb.accessor(array)
+            about["uv"].append({"name": name, "semantic": f"TEXCOORD_{i}"})
+        for i, (name, kind, array) in enumerate(parts.extras):
+            semantics[f"_ATTRIBUTE_{i}"] = glb.accessor(array)
+            about["attributes"].append({"name": name, "semantic": f"_ATTRIBUTE_{i}", "kind": kind})
+        if parts.generated is not None:
+            semantics["_GENERATED"] = glb.accessor(parts.generated)
+            about["generated"] = "_GENERATED"
+        return semantics, about
+
+
+def active_uv(mesh):
+    """Position of the UV layer that is rendered where a node names none."""
+    return next((i for i, layer in enumerate(mesh.uv_layers) if layer.active_render), 0)

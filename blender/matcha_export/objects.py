@@ -1,0 +1,83 @@
+"""Walks over everything that is placed in the scene."""
+
+import numpy as np
+
+from . import axes, lights, visibility
+from .instancing import Placement
+
+GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+UNSUPPORTED = {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL", "GPENCIL"}
+
+
+class Objects:
+    """Turns depsgraph instances into placements of meshes and into light nodes."""
+
+    def __init__(self, glb, meshes, materials, trees, report, view_layer):
+        self.glb = glb
+        self.meshes = meshes
+        self.materials = materials
+        self.lights = lights.Lights(glb, trees, report)
+        self.report = report
+        self.view_layer = view_layer
+        self.placements = []
+        self.light_nodes = []
+
+    def collect(self, depsgraph):
+        """Visits all instances once; Blender reuses each of them for the next."""
+        total = max(len(depsgraph.object_instances), 1)
+        for number, instance in enumerate(depsgraph.object_instances):
+            self.report.progress(0.05 + 0.85 * number / total, "meshes")
+            kind = instance.object.type
+            if kind == "LIGHT":
+                self.light_nodes.append(self.lights.node(instance))
+            elif kind in GEOMETRY and instance.show_self:
+                self._place(instance, depsgraph)
+            elif kind in UNSUPPORTED:
+                self.report.warning(f"object {instance.object.name}: {kind.lower()} objects are left out")
+            self._hair(instance)
+
+    def _hair(self, instance):
+        obj = instance.object
+        if not instance.show_particles or obj.type != "MESH":
+            return
+        for modifier in obj.modifiers:
+            system = getattr(modifier, "particle_system", None)
+            if system and system.settings.type == "HAIR" and system.settings.render_type == "PATH":
+                self.report.warning(f"object {obj.name}: hair strands are left out")
+
+    def _place(self, instance, depsgraph):
+        obj = instance.object
+        entry = visibility.about(instance, self.view_layer)
+        if not any(entry["visibility"].values()):
+            return
+        worn = tuple(self.materials.add(slot.material) for slot in obj.material_slots)
+        own = self._own_slots(obj) or worn
+        # An object may have fewer or other slots than its data.
+        slots = (own or worn) or (self.materials.add(None),)
+        mesh = self._mesh(obj, slots, depsgraph)
+        if mesh is None:
+            return
+        if worn and worn != slots:
+            entry["materials"] = list(worn)
+        matrix = axes.placement(np.array(instance.matrix_world, dtype=np.float64))
+        self.placements.append(Placement(mesh, matrix, visibility.random(instance), entry))
+
+    def _own_slots(self, obj):
+        slots = getattr(obj.data, "materials", None)
+        return tuple(self.materials.add(material) for material in slots) if slots else ()
+
+    def _mesh(self, obj, slots, depsgraph):
+        data = obj.data
+        if obj.type == "MESH":
+            return self.meshes.add(data.as_pointer(), data.name, lambda: data, slots)
+        # Curves, texts, surfaces and metaballs: modifiers belong to the object.
+        try:
+            mesh = obj.to_mesh(preserve_all_data_layers=True, depsgraph=depsgraph)
+        except RuntimeError:
+            return None
+        if mesh is None:
+            return None
+        try:
+            return self.meshes.add((obj.original.as_pointer(), "converted"), obj.name, lambda: mesh, slots)
+        finally:
+            obj.to_mesh_clear()
