@@ -321,10 +321,28 @@ macro_rules! operations {
 /// An entry as a value.
 macro_rules! entry {
     (
-        $family:ident $name:ident $doc:expr; ($($arg:ident : $ty:ident),* $(,)?) $result:ident {
-            cost: $cost:expr, error: $error:expr, $(domain: $domain:expr,)?
+        $family:ident $name:ident $doc:expr; $arguments:tt $result:ident {
+            cost: $cost:expr, error: $error:expr, domain: $domain:expr,
             $form:ident : $body:tt $(:: $rest:ident)* $(,)?
         }
+    ) => {
+        crate::ops::entry!(@entry
+            $family $name $doc; $arguments $result $cost, $error, $domain,
+            $form $body $(:: $rest)*)
+    };
+    (
+        $family:ident $name:ident $doc:expr; $arguments:tt $result:ident {
+            cost: $cost:expr, error: $error:expr,
+            $form:ident : $body:tt $(:: $rest:ident)* $(,)?
+        }
+    ) => {
+        crate::ops::entry!(@entry
+            $family $name $doc; $arguments $result $cost, $error, [-4.0, 4.0],
+            $form $body $(:: $rest)*)
+    };
+    (@entry
+        $family:ident $name:ident $doc:expr; ($($arg:ident : $ty:ident),* $(,)?) $result:ident
+        $cost:expr, $error:expr, $domain:expr, $form:ident $body:tt $(:: $rest:ident)*
     ) => {
         crate::ops::OpInfo {
             name: stringify!($name),
@@ -339,13 +357,11 @@ macro_rules! entry {
             encoding: <crate::ops::types::$result as crate::ops::types::TableType>::ENCODING,
             cost: $cost,
             error: $error,
-            domain: crate::ops::entry!(@domain $($domain)?),
+            domain: $domain,
             functions: crate::ops::entry!(@functions $form $body $(:: $rest)*),
             kernels: crate::vm::kernel::KernelSet::of::<$name>(),
         }
     };
-    (@domain) => { [-4.0, 4.0] };
-    (@domain $domain:expr) => { $domain };
     (@functions eval $eval:path) => { &[stringify!($eval)] };
     (@functions loop {
         count: $count:path, init: $init:path, step: $step:path, finish: $finish:path,
@@ -482,7 +498,7 @@ macro_rules! families {
     };
 }
 
-families! { arithmetic }
+families! { arithmetic, number, direction, tint, noise, cellular, texture, surface }
 
 /// Index of a family's first operation.
 pub(crate) const fn first_of(family: usize) -> usize {

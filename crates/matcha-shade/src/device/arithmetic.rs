@@ -1,5 +1,6 @@
 //! Sums and products.
 
+use crate::device::math::{clamp, to_int};
 use glam::{Vec2, Vec3};
 
 /// a + b.
@@ -26,30 +27,6 @@ pub fn scalar_multiply_add(a: f32, b: f32, c: f32) -> f32 {
     a * b + c
 }
 
-/// The smaller; b where either is not a number.
-#[inline(always)]
-pub fn scalar_minimum(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-/// The larger; b where either is not a number.
-#[inline(always)]
-pub fn scalar_maximum(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
-/// x clamped to [0, 1]; not-a-number gives 0.
-#[inline(always)]
-pub fn scalar_saturate(x: f32) -> f32 {
-    scalar_minimum(scalar_maximum(x, 0.0), 1.0)
-}
-
-/// a + (b − a)·t.
-#[inline(always)]
-pub fn scalar_mix(a: f32, b: f32, t: f32) -> f32 {
-    a + (b - a) * t
-}
-
 /// a + b.
 #[inline(always)]
 pub fn vector_add(a: Vec3, b: Vec3) -> Vec3 {
@@ -74,18 +51,6 @@ pub fn vector_scale(a: Vec3, s: f32) -> Vec3 {
     a * s
 }
 
-/// a + (b − a)·t.
-#[inline(always)]
-pub fn vector_mix(a: Vec3, b: Vec3, t: f32) -> Vec3 {
-    a + (b - a) * t
-}
-
-/// The scalar product.
-#[inline(always)]
-pub fn vector_dot(a: Vec3, b: Vec3) -> f32 {
-    a.x * b.x + a.y * b.y + a.z * b.z
-}
-
 /// a − b.
 #[inline(always)]
 pub fn pair_subtract(a: Vec2, b: Vec2) -> Vec2 {
@@ -95,8 +60,7 @@ pub fn pair_subtract(a: Vec2, b: Vec2) -> Vec2 {
 /// Trip count of [`halves_step`].
 #[inline(always)]
 pub fn halves_count(_x: f32, count: f32) -> u32 {
-    let inside = scalar_minimum(scalar_maximum(count, 0.0), 24.0);
-    inside as u32
+    to_int(clamp(count, 0.0, 24.0)) as u32
 }
 
 /// (term, sum).

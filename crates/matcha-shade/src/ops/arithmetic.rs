@@ -1,6 +1,6 @@
 //! What the compiler itself needs: sums and products of numbers and vectors.
 
-use crate::device::arithmetic;
+use crate::device::{arithmetic, math};
 
 operations! {
     family arithmetic;
@@ -32,25 +32,25 @@ operations! {
     /// The smaller. Cycles, Math, *Minimum*.
     math_minimum(a: F1, b: F1) -> F1 {
         cost: 0.15, error: 0.0,
-        eval: arithmetic::scalar_minimum,
+        eval: math::min,
     }
 
     /// The larger. Cycles, Math, *Maximum*.
     math_maximum(a: F1, b: F1) -> F1 {
         cost: 0.15, error: 0.0,
-        eval: arithmetic::scalar_maximum,
+        eval: math::max,
     }
 
     /// x clamped to [0, 1]; not-a-number gives 0.
     math_saturate(x: F1) -> F1 {
         cost: 0.15, error: 0.0,
-        eval: arithmetic::scalar_saturate,
+        eval: math::saturate,
     }
 
     /// a where t is 0, b where it is 1: a + (b − a)·t.
     math_mix(a: F1, b: F1, t: F1) -> F1 {
         cost: 0.2, error: 1e-6,
-        eval: arithmetic::scalar_mix,
+        eval: math::mix,
     }
 
     /// a + b, by component. Cycles, Vector Math, *Add*.
@@ -80,13 +80,13 @@ operations! {
     /// a where t is 0, b where it is 1, one factor for all components.
     vector_mix(a: F3, b: F3, t: F1) -> F3 {
         cost: 0.5, error: 1e-6,
-        eval: arithmetic::vector_mix,
+        eval: math::mix3,
     }
 
     /// The scalar product. Cycles, Vector Math, *Dot Product*.
     vector_dot(a: F3, b: F3) -> F1 {
         cost: 0.4, error: 1e-5,
-        eval: arithmetic::vector_dot,
+        eval: math::dot,
     }
 
     /// a − b, by component.
