@@ -1,0 +1,147 @@
+//! What is looked up for every hit, prepared once for a scene.
+
+use super::island::random_per_island;
+use super::pointiness::pointiness;
+use super::view::View;
+use crate::scene::{Mesh, Scene, UvSet};
+use glam::{Mat3A, Vec3};
+use matcha_shade::input::InputKind;
+
+/// No such layer on a mesh.
+const MISSING: u16 = u16::MAX;
+
+/// What an instance's transform does to directions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed {
+    /// Object normals to world normals: the inverse transpose.
+    pub(super) normals: Mat3A,
+    /// −1 where the transform mirrors.
+    pub(super) handedness: f32,
+}
+
+/// A scene's tables for surfaces.
+#[derive(Clone, Debug)]
+pub struct SurfaceTables {
+    pub(super) view: View,
+    pub(super) placed: Vec<Placed>,
+    /// Layers by mesh and UV name.
+    uv_sets: Vec<u16>,
+    uv_names: usize,
+    /// Layers by mesh and attribute name.
+    attributes: Vec<u16>,
+    attribute_names: usize,
+    /// By mesh; empty where no program asks.
+    pub(super) islands: Vec<Vec<f32>>,
+    pub(super) pointiness: Vec<Vec<f32>>,
+}
+
+impl SurfaceTables {
+    /// Prepares a scene; `read` are the quantities that its programs read. The scene's indices
+    /// must be valid, as [`crate::accel::Accel::build`] checks.
+    pub fn new(scene: &Scene, view: View, read: impl IntoIterator<Item = InputKind>) -> Self {
+        let (mut islands, mut points) = (false, false);
+        for kind in read {
+            islands |= kind == InputKind::RandomPerIsland;
+            points |= kind == InputKind::Pointiness;
+        }
+        let per_mesh = |wanted: bool, measure: fn(&Mesh) -> Vec<f32>| {
+            if wanted { scene.meshes.iter().map(measure).collect() } else { Vec::new() }
+        };
+        let uv_names = scene.uv_names.len().max(1);
+        let attribute_names = scene.attribute_names.len();
+        Self {
+            view,
+            placed: scene.instances.iter().map(|i| placed(&i.transform)).collect(),
+            uv_sets: scene.meshes.iter().flat_map(|m| layers_of_uv(m, uv_names)).collect(),
+            uv_names,
+            attributes: scene
+                .meshes
+                .iter()
+                .flat_map(|m| layers_of_attributes(m, attribute_names))
+                .collect(),
+            attribute_names,
+            islands: per_mesh(islands, random_per_island),
+            pointiness: per_mesh(points, pointiness),
+        }
+    }
+
+    /// The layer of a mesh that a UV name means.
+    #[inline]
+    pub(super) fn uv_set<'s>(&self, scene: &'s Scene, mesh: u32, name: u16) -> Option<&'s UvSet> {
+        if name as usize >= self.uv_names {
+            return None;
+        }
+        let layer = *self.uv_sets.get(mesh as usize * self.uv_names + name as usize)?;
+        scene.meshes[mesh as usize].uv_sets.get(layer as usize)
+    }
+
+    /// Values of a mesh's attribute at the corners of a triangle.
+    #[inline]
+    pub(super) fn attribute<'s>(
+        &self,
+        scene: &'s Scene,
+        mesh: u32,
+        name: u16,
+        triangle: u32,
+    ) -> Option<&'s [glam::Vec4; 3]> {
+        if name as usize >= self.attribute_names {
+            return None;
+        }
+        let layer = *self.attributes.get(mesh as usize * self.attribute_names + name as usize)?;
+        let layer = scene.meshes[mesh as usize].attributes.get(layer as usize)?;
+        layer.corners.get(triangle as usize)
+    }
+
+    /// Memory, bytes.
+    pub fn bytes(&self) -> usize {
+        let floats: usize = self.islands.iter().chain(&self.pointiness).map(Vec::len).sum();
+        size_of_val(&self.placed[..])
+            + size_of_val(&self.uv_sets[..])
+            + size_of_val(&self.attributes[..])
+            + floats * size_of::<f32>()
+    }
+}
+
+fn placed(transform: &glam::Affine3A) -> Placed {
+    let matrix = transform.matrix3;
+    let determinant = matrix.determinant();
+    // The cofactors are the inverse transpose times the determinant, and exist where it is zero.
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+    let handedness = if determinant < 0.0 { -1.0 } else { 1.0 };
+    let normals = Mat3A::from_cols(y.cross(z), z.cross(x), x.cross(y)) * handedness;
+    // Scaled to unit size, so that tiny and huge objects keep their normals' squares finite.
+    let scale = [normals.x_axis, normals.y_axis, normals.z_axis]
+        .iter()
+        .map(|column| column.abs().max_element())
+        .fold(0.0, f32::max);
+    let normals = if scale > 0.0 { normals * (1.0 / scale) } else { Mat3A::IDENTITY };
+    Placed { normals, handedness }
+}
+
+fn layers_of_uv(mesh: &Mesh, names: usize) -> Vec<u16> {
+    let mut layers = vec![MISSING; names];
+    for (i, set) in mesh.uv_sets.iter().enumerate().rev() {
+        if let Some(layer) = layers.get_mut(set.name as usize) {
+            *layer = i as u16;
+        }
+    }
+    layers[0] = if mesh.active_uv < mesh.uv_sets.len() { mesh.active_uv as u16 } else { MISSING };
+    layers
+}
+
+fn layers_of_attributes(mesh: &Mesh, names: usize) -> Vec<u16> {
+    let mut layers = vec![MISSING; names];
+    for (i, attribute) in mesh.attributes.iter().enumerate().rev() {
+        if let Some(layer) = layers.get_mut(attribute.name as usize) {
+            *layer = i as u16;
+        }
+    }
+    layers
+}
+
+/// Unit length, or `fallback` where there is none.
+#[inline(always)]
+pub(super) fn unit_or(v: Vec3, fallback: Vec3) -> Vec3 {
+    let squared = v.length_squared();
+    if squared > f32::MIN_POSITIVE && squared.is_finite() { v / squared.sqrt() } else { fallback }
+}
