@@ -4,9 +4,7 @@ use glam::{Affine3A, Mat3, Vec3, Vec4};
 use proptest::prelude::*;
 
 pub(crate) fn random(state: &mut u64) -> f32 {
-    *state = state
-        .wrapping_mul(6364136223846793005)
-        .wrapping_add(1442695040888963407);
+    *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
     ((*state >> 40) as f32) / (1u64 << 24) as f32
 }
 
@@ -15,14 +13,10 @@ fn random_vec(state: &mut u64) -> Vec3 {
 }
 
 fn soup(triangles: usize, size: f32, state: &mut u64) -> Mesh {
-    let mut mesh = Mesh {
-        name: "soup".into(),
-        ..Mesh::default()
-    };
+    let mut mesh = Mesh { name: "soup".into(), ..Mesh::default() };
     for i in 0..triangles as u32 {
         let center = random_vec(state);
-        mesh.positions
-            .extend([0; 3].map(|_| center + random_vec(state) * size));
+        mesh.positions.extend([0; 3].map(|_| center + random_vec(state) * size));
         mesh.indices.push([3 * i, 3 * i + 1, 3 * i + 2]);
     }
     mesh
@@ -45,9 +39,7 @@ fn place(mesh: u32, transform: Affine3A) -> Instance {
 fn scene(meshes: usize, instances: usize, triangles: usize, seed: u64) -> Scene {
     let mut state = seed;
     let mut scene = Scene::default();
-    scene.meshes = (0..meshes)
-        .map(|_| soup(triangles, 0.2, &mut state))
-        .collect();
+    scene.meshes = (0..meshes).map(|_| soup(triangles, 0.2, &mut state)).collect();
     scene.instances = (0..instances)
         .map(|i| {
             let linear = Mat3::from_rotation_y(random(&mut state) * 6.0)
@@ -75,10 +67,7 @@ fn brute_force(scene: &Scene, ray: &Ray) -> Option<(u32, u32, f64)> {
                 continue;
             }
             let [a, b, c] = triangle.map(|v| {
-                instance
-                    .transform
-                    .transform_point3(mesh.positions[v as usize])
-                    .as_dvec3()
+                instance.transform.transform_point3(mesh.positions[v as usize]).as_dvec3()
             });
             if [a, b, c].iter().any(|p| p.abs().max_element() > 1e18) {
                 continue;
@@ -131,21 +120,14 @@ fn agree(scene: &Scene, accel: &Accel, rays: usize, seed: u64) -> usize {
 fn every_way_to_build_agrees_with_brute_force() {
     for (flat_triangles, pre_split) in [(0, false), (0, true), (150, false), (1 << 20, true)] {
         let scene = scene(3, 12, 60, 7);
-        let options = BuildOptions {
-            flat_triangles,
-            pre_split,
-            ..BuildOptions::default()
-        };
+        let options = BuildOptions { flat_triangles, pre_split, ..BuildOptions::default() };
         let mut accel = Accel::build_with(&scene, &options).unwrap();
         accel.validate().unwrap();
         let differ = agree(&scene, &accel, 3000, 11);
         assert!(differ <= 3, "{differ} of 3000 rays differ ({options:?})");
         accel.use_portable_kernel();
         let differ = agree(&scene, &accel, 3000, 11);
-        assert!(
-            differ <= 3,
-            "{differ} of 3000 rays differ, portable ({options:?})"
-        );
+        assert!(differ <= 3, "{differ} of 3000 rays differ, portable ({options:?})");
     }
 }
 
@@ -171,9 +153,7 @@ fn hits_weigh_the_corners() {
     });
     scene.instances.push(place(0, Affine3A::IDENTITY));
     let accel = Accel::build(&scene).unwrap();
-    let hit = accel
-        .closest(&Ray::new(Vec3::new(0.2, 0.3, 2.0), Vec3::NEG_Z))
-        .unwrap();
+    let hit = accel.closest(&Ray::new(Vec3::new(0.2, 0.3, 2.0), Vec3::NEG_Z)).unwrap();
     assert!((hit.u - 0.2).abs() < 1e-6 && (hit.v - 0.3).abs() < 1e-6 && (hit.t - 2.0).abs() < 1e-6);
 }
 
@@ -193,10 +173,7 @@ fn unsound_triangles_are_dropped() {
     mesh.positions[8].z = f32::INFINITY;
     mesh.positions[9].y = 3e30;
     for flat_triangles in [0, 1000] {
-        let options = BuildOptions {
-            flat_triangles,
-            ..BuildOptions::default()
-        };
+        let options = BuildOptions { flat_triangles, ..BuildOptions::default() };
         let accel = Accel::build_with(&scene, &options).unwrap();
         assert_eq!(accel.dropped_triangles(), 4);
         accel.validate().unwrap();
@@ -208,16 +185,8 @@ fn unsound_triangles_are_dropped() {
 fn unsound_rays_hit_nothing() {
     let accel = Accel::build(&scene(1, 1, 50, 1)).unwrap();
     for bad in [f32::NAN, f32::INFINITY] {
-        assert!(
-            accel
-                .closest(&Ray::new(Vec3::splat(bad), Vec3::X))
-                .is_none()
-        );
-        assert!(
-            accel
-                .closest(&Ray::new(Vec3::ZERO, Vec3::new(bad, 1.0, 0.0)))
-                .is_none()
-        );
+        assert!(accel.closest(&Ray::new(Vec3::splat(bad), Vec3::X)).is_none());
+        assert!(accel.closest(&Ray::new(Vec3::ZERO, Vec3::new(bad, 1.0, 0.0))).is_none());
     }
     assert!(accel.closest(&Ray::new(Vec3::ZERO, Vec3::ZERO)).is_none());
 }
@@ -228,18 +197,11 @@ fn lying_indices_are_errors() {
     broken.meshes[0].indices[2][1] = 99;
     assert!(matches!(
         Accel::build(&broken),
-        Err(AccelError::VertexIndex {
-            triangle: 2,
-            vertex: 99,
-            ..
-        })
+        Err(AccelError::VertexIndex { triangle: 2, vertex: 99, .. })
     ));
     let mut broken = scene(1, 1, 5, 1);
     broken.instances[0].mesh = 4;
-    assert!(matches!(
-        Accel::build(&broken),
-        Err(AccelError::MeshIndex { mesh: 4, .. })
-    ));
+    assert!(matches!(Accel::build(&broken), Err(AccelError::MeshIndex { mesh: 4, .. })));
 }
 
 #[test]
@@ -247,10 +209,7 @@ fn a_flattened_or_collapsed_instance_does_no_harm() {
     let mut scene = scene(1, 3, 40, 9);
     scene.instances[1].transform = Affine3A::from_scale(Vec3::new(1.0, 1.0, 0.0));
     scene.instances[2].transform = Affine3A::from_scale(Vec3::ZERO);
-    let options = BuildOptions {
-        flat_triangles: 0,
-        ..BuildOptions::default()
-    };
+    let options = BuildOptions { flat_triangles: 0, ..BuildOptions::default() };
     let accel = Accel::build_with(&scene, &options).unwrap();
     accel.validate().unwrap();
     assert!(agree(&scene, &accel, 1000, 4) <= 2);
@@ -259,20 +218,13 @@ fn a_flattened_or_collapsed_instance_does_no_harm() {
 #[test]
 fn coincident_triangles_make_no_trouble() {
     let mut scene = Scene::default();
-    let mut mesh = Mesh {
-        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
-        ..Mesh::default()
-    };
+    let mut mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], ..Mesh::default() };
     mesh.indices = vec![[0, 1, 2]; 5000];
     scene.meshes.push(mesh);
     scene.instances.push(place(0, Affine3A::IDENTITY));
     let accel = Accel::build(&scene).unwrap();
     accel.validate().unwrap();
-    assert!(
-        accel
-            .closest(&Ray::new(Vec3::new(0.2, 0.2, 1.0), Vec3::NEG_Z))
-            .is_some()
-    );
+    assert!(accel.closest(&Ray::new(Vec3::new(0.2, 0.2, 1.0), Vec3::NEG_Z)).is_some());
 }
 
 #[test]
@@ -282,19 +234,12 @@ fn visibility_and_exclusion_hide() {
         let mut scene = scene(2, 6, 80, 21);
         scene.instances[0].visibility.camera = false;
         scene.instances[1].visibility.shadow = false;
-        let options = BuildOptions {
-            flat_triangles,
-            ..BuildOptions::default()
-        };
+        let options = BuildOptions { flat_triangles, ..BuildOptions::default() };
         let accel = Accel::build_with(&scene, &options).unwrap();
         let mut differ = 0;
         for _ in 0..1000 {
             let mut ray = Ray::new(random_vec(&mut state) * 5.0, random_vec(&mut state));
-            ray.mask = if random(&mut state) < 0.5 {
-                ray_kind::CAMERA
-            } else {
-                ray_kind::SHADOW
-            };
+            ray.mask = if random(&mut state) < 0.5 { ray_kind::CAMERA } else { ray_kind::SHADOW };
             if let Some(first) = accel.closest(&ray) {
                 ray.excluded = [first.instance, first.primitive];
             }
@@ -314,16 +259,8 @@ fn closed_surface() -> Mesh {
         for s in 0..sectors {
             let theta = std::f32::consts::PI * r as f32 / rings as f32;
             let phi = std::f32::consts::TAU * s as f32 / sectors as f32;
-            let ring = if r == 0 || r == rings {
-                0.0
-            } else {
-                theta.sin()
-            };
-            mesh.positions.push(Vec3::new(
-                ring * phi.cos(),
-                ring * phi.sin(),
-                theta.cos() * 0.3,
-            ));
+            let ring = if r == 0 || r == rings { 0.0 } else { theta.sin() };
+            mesh.positions.push(Vec3::new(ring * phi.cos(), ring * phi.sin(), theta.cos() * 0.3));
         }
     }
     for r in 0..rings {
@@ -362,10 +299,7 @@ fn edges_of_a_closed_surface_are_tight() {
             let origin = random_vec(&mut state) * 0.1;
             let along = a.lerp(b, 0.05 + 0.9 * random(&mut state));
             let ray = Ray::new(origin, along - origin);
-            assert!(
-                accel.occluded(&ray),
-                "{ray:?} slipped through (portable {portable})"
-            );
+            assert!(accel.occluded(&ray), "{ray:?} slipped through (portable {portable})");
         }
     }
 }

@@ -41,7 +41,7 @@ fn each<const N: usize>(
     value: impl Fn(&SurfacePoint) -> [f32; N],
 ) {
     let mut targets = rows.rows_mut(first, N);
-    let mut targets: [&mut [f32]; N] =
+    let targets: [&mut [f32]; N] =
         std::array::from_fn(|_| targets.next().map_or(&mut [][..], |row| &mut row[..points.len()]));
     for (i, point) in points.iter().enumerate() {
         let value = value(point);
