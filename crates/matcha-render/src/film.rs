@@ -3,6 +3,8 @@
 //! A sample adds to its own pixel only (filter importance sampling), so a tile belongs to
 //! one thread and the sums do not depend on how many threads there are.
 
+pub mod filter;
+
 use glam::{Vec3, Vec4};
 
 /// Sums over the samples of one pixel.
@@ -85,6 +87,16 @@ impl Film {
     /// Smallest number of samples that a pixel has.
     pub fn samples(&self) -> u32 {
         self.pixels.iter().map(|p| p.samples as u32).min().unwrap_or(0)
+    }
+
+    /// Number of samples of all pixels together.
+    pub fn total_samples(&self) -> u64 {
+        self.pixels.iter().map(|p| p.samples as u64).sum()
+    }
+
+    /// Number of nodes found in the cache, over all samples.
+    pub fn total_nodes_found(&self) -> u64 {
+        self.pixels.iter().map(|p| f64::from(p.nodes_found)).sum::<f64>() as u64
     }
 
     /// The picture, linear Rec.709 with premultiplied alpha, row by row.

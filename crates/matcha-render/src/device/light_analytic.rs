@@ -241,7 +241,7 @@ pub fn light_sphere_sample(light: AnalyticLight, p: Vec3, n: Vec3, u: Vec2) -> L
     let to = light.center - p;
     let d2 = dot(to, to);
     let outside = d2 > light.radius * light.radius;
-    let mut direction = vec3(0.0, 0.0, 1.0);
+    let mut direction = mapping_cone(u, 2.0);
     if outside {
         let cap = light_sphere_cap(light.radius, d2);
         let beam = light_samples_beam(light, cap);
@@ -255,8 +255,6 @@ pub fn light_sphere_sample(light: AnalyticLight, p: Vec3, n: Vec3, u: Vec2) -> L
     } else if dot(n, n) > 0.0 {
         let local = mapping_cosine(u);
         direction = mapping_place(mapping_frame(n), local.x, local.y, local.z);
-    } else {
-        direction = mapping_cone(u, 2.0);
     }
     let mut distance = light_sphere_distance(light, p, direction);
     if outside && distance < 0.0 {

@@ -1,0 +1,298 @@
+//! Builds the light tree: top-down by the surface area orientation heuristic over bins
+//! (Conty Estevez and Kulla 2018, §4.4), in parallel; exact bounds bottom-up.
+
+use super::tree::{LightNode, Link};
+use crate::device::light_importance::LightBounds;
+use glam::Vec3;
+
+/// Bins per axis.
+const BINS: usize = 12;
+/// Below this depth halves are equal, which bounds the depth to less than 64.
+const DEEP: u32 = 36;
+/// Smaller jobs stay on their thread.
+const PARALLEL: usize = 4096;
+
+struct Item {
+    bounds: LightBounds,
+    emitter: u32,
+}
+
+impl Item {
+    fn centroid(&self) -> Vec3 {
+        (self.bounds.low + self.bounds.high) * 0.5
+    }
+}
+
+/// Nodes (root first) and the trail of every emitter.
+pub fn build(bounds: &[LightBounds]) -> (Vec<LightNode>, Vec<u64>) {
+    if bounds.is_empty() {
+        return Default::default();
+    }
+    let mut items: Vec<Item> = bounds
+        .iter()
+        .zip(0..)
+        .map(|(b, emitter)| Item {
+            bounds: *b,
+            emitter,
+        })
+        .collect();
+    let mut nodes = vec![LightNode::default(); 2 * items.len() - 1];
+    let mut trails = vec![0; items.len()];
+    let (root, rest) = nodes.split_first_mut().expect("there is one node at least");
+    build_node(Job {
+        node: root,
+        rest,
+        first: 1,
+        items: &mut items,
+        trails: &mut trails,
+        depth: 0,
+        trail: 0,
+    });
+    let mut of_emitter = vec![0; items.len()];
+    for (item, trail) in items.iter().zip(trails) {
+        of_emitter[item.emitter as usize] = trail;
+    }
+    (nodes, of_emitter)
+}
+
+/// A sub-tree to build: its root, room for its other nodes, and where that room starts.
+struct Job<'a> {
+    node: &'a mut LightNode,
+    rest: &'a mut [LightNode],
+    first: u32,
+    items: &'a mut [Item],
+    trails: &'a mut [u64],
+    depth: u32,
+    trail: u64,
+}
+
+fn build_node(job: Job<'_>) -> LightBounds {
+    if let [item] = job.items {
+        *job.node = LightNode::new(&item.bounds, Link::Emitter(item.emitter));
+        job.trails[0] = job.trail;
+        return item.bounds;
+    }
+    let middle = if job.depth < DEEP {
+        split(job.items)
+    } else {
+        job.items.len() / 2
+    };
+    let parallel = job.items.len() > PARALLEL;
+    let (left_items, right_items) = job.items.split_at_mut(middle);
+    let (left_trails, right_trails) = job.trails.split_at_mut(middle);
+    let (children, rest) = job.rest.split_at_mut(2);
+    let (left_rest, right_rest) = rest.split_at_mut(2 * middle - 2);
+    let (left_node, right_node) = children.split_at_mut(1);
+    let left = Job {
+        node: &mut left_node[0],
+        rest: left_rest,
+        first: job.first + 2,
+        items: left_items,
+        trails: left_trails,
+        depth: job.depth + 1,
+        trail: job.trail,
+    };
+    let right = Job {
+        node: &mut right_node[0],
+        rest: right_rest,
+        first: job.first + 2 * middle as u32,
+        items: right_items,
+        trails: right_trails,
+        depth: job.depth + 1,
+        trail: job.trail | 1 << job.depth,
+    };
+    let (a, b) = if parallel {
+        rayon::join(|| build_node(left), || build_node(right))
+    } else {
+        (build_node(left), build_node(right))
+    };
+    let bounds = unite(&a, &b);
+    *job.node = LightNode::new(&bounds, Link::Children(job.first));
+    bounds
+}
+
+/// Smallest bounds that hold both (cones: Conty Estevez and Kulla 2018, algorithm 1).
+pub fn unite(a: &LightBounds, b: &LightBounds) -> LightBounds {
+    let flip = a.two_sided && b.two_sided && a.axis.dot(b.axis) < 0.0;
+    let (axis, cos_normals) = unite_cones(
+        a.axis,
+        a.cos_normals,
+        if flip { -b.axis } else { b.axis },
+        b.cos_normals,
+    );
+    LightBounds {
+        low: a.low.min(b.low),
+        high: a.high.max(b.high),
+        axis,
+        cos_normals,
+        cos_emission: a.cos_emission.min(b.cos_emission),
+        power: a.power + b.power,
+        two_sided: a.two_sided || b.two_sided,
+    }
+}
+
+fn unite_cones(a: Vec3, cos_a: f32, b: Vec3, cos_b: f32) -> (Vec3, f32) {
+    if a == b {
+        return (a, cos_a.min(cos_b));
+    }
+    let (wide, cos_wide, narrow, cos_narrow) = if cos_a <= cos_b {
+        (a, cos_a, b, cos_b)
+    } else {
+        (b, cos_b, a, cos_a)
+    };
+    let angle = wide.dot(narrow).clamp(-1.0, 1.0).acos();
+    let (half_wide, half_narrow) = (cos_wide.acos(), cos_narrow.acos());
+    if (angle + half_narrow).min(std::f32::consts::PI) <= half_wide {
+        return (wide, cos_wide);
+    }
+    let half = 0.5 * (half_wide + angle + half_narrow);
+    let across = narrow - wide * wide.dot(narrow);
+    if half >= std::f32::consts::PI || across.length_squared() < 1e-12 {
+        return (wide, -1.0);
+    }
+    let turn = half - half_wide;
+    let axis = wide * turn.cos() + across.normalize() * turn.sin();
+    // A little wider than rounding could make it too narrow.
+    (
+        axis.normalize(),
+        (half + 1e-4).min(std::f32::consts::PI).cos(),
+    )
+}
+
+/// Sums over the items of a bin, or of one side of a split.
+#[derive(Clone, Copy)]
+struct Bin {
+    low: Vec3,
+    high: Vec3,
+    axis: Vec3,
+    power: f32,
+    count: u32,
+}
+
+const EMPTY: Bin = Bin {
+    low: Vec3::INFINITY,
+    high: Vec3::NEG_INFINITY,
+    axis: Vec3::ZERO,
+    power: 0.0,
+    count: 0,
+};
+
+impl Bin {
+    fn add(&mut self, bounds: &LightBounds) {
+        self.low = self.low.min(bounds.low);
+        self.high = self.high.max(bounds.high);
+        // Either direction stands for a two-sided light: take one half space's.
+        let sign = if bounds.two_sided && bounds.axis.dot(HALF_SPACE) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        let sharpness = 0.5 + 0.5 * bounds.cos_normals;
+        self.axis += bounds.axis * (bounds.power * sign * sharpness);
+        self.power += bounds.power;
+        self.count += 1;
+    }
+
+    fn join(&mut self, other: &Bin) {
+        self.low = self.low.min(other.low);
+        self.high = self.high.max(other.high);
+        self.axis += other.axis;
+        self.power += other.power;
+        self.count += other.count;
+    }
+
+    /// Power times area times a measure of the spread of normals. The measure only chooses
+    /// splits, so the mean direction's length stands in for the bounding cone, whose union
+    /// would cost more than the rest of the build.
+    fn cost(&self, diagonal: f32) -> f32 {
+        let size = (self.high - self.low).max(Vec3::splat(1e-3 * diagonal));
+        let area = size.x * size.y + size.y * size.z + size.z * size.x;
+        let spread = 1.0 - (self.axis.length() / self.power.max(1e-30)).min(1.0);
+        self.power * area * (1.0 + 3.0 * spread)
+    }
+}
+
+/// No plane through the origin with a simple equation is perpendicular to it.
+const HALF_SPACE: Vec3 = Vec3::new(0.31, 0.47, 0.83);
+
+/// Reorders the items into two groups; returns the size of the first, never 0 or all.
+fn split(items: &mut [Item]) -> usize {
+    let half = items.len() / 2;
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for item in items.iter() {
+        low = low.min(item.centroid());
+        high = high.max(item.centroid());
+    }
+    let extent = high - low;
+    if items.len() == 2 || !extent.is_finite() || extent.max_element() <= 0.0 {
+        return half;
+    }
+    let scale = Vec3::select(extent.cmpgt(Vec3::ZERO), BINS as f32 / extent, Vec3::ZERO);
+    let bin_of = |item: &Item| {
+        ((item.centroid() - low) * scale)
+            .min(Vec3::splat(BINS as f32 - 1.0))
+            .as_uvec3()
+    };
+    let mut bins = [[EMPTY; BINS]; 3];
+    for item in items.iter() {
+        let bin = bin_of(item);
+        for axis in 0..3 {
+            bins[axis][bin[axis] as usize].add(&item.bounds);
+        }
+    }
+    let Some((axis, boundary)) = cheapest(&bins, extent) else {
+        return half;
+    };
+    let middle = partition(items, |item| bin_of(item)[axis] < boundary);
+    if middle == 0 || middle == items.len() {
+        half
+    } else {
+        middle
+    }
+}
+
+/// Axis and first bin of the second group of the cheapest split.
+fn cheapest(bins: &[[Bin; BINS]; 3], extent: Vec3) -> Option<(usize, u32)> {
+    let mut best = None;
+    let mut least = f32::INFINITY;
+    for (axis, bins) in bins.iter().enumerate() {
+        if extent[axis] <= 0.0 {
+            continue;
+        }
+        // Long sides are better cut (the paper's regularisation of thin boxes).
+        let thinness = extent.max_element() / extent[axis];
+        let mut after = [EMPTY; BINS];
+        after[BINS - 1] = bins[BINS - 1];
+        for i in (0..BINS - 1).rev() {
+            after[i] = after[i + 1];
+            after[i].join(&bins[i]);
+        }
+        let diagonal = (after[0].high - after[0].low).length();
+        let mut before = EMPTY;
+        for boundary in 1..BINS {
+            before.join(&bins[boundary - 1]);
+            let rest = &after[boundary];
+            if before.count == 0 || rest.count == 0 {
+                continue;
+            }
+            let cost = thinness * (before.cost(diagonal) + rest.cost(diagonal));
+            if cost < least {
+                least = cost;
+                best = Some((axis, boundary as u32));
+            }
+        }
+    }
+    best
+}
+
+/// Moves the items that satisfy the predicate to the front; returns their number.
+fn partition(items: &mut [Item], first: impl Fn(&Item) -> bool) -> usize {
+    let mut end = 0;
+    for i in 0..items.len() {
+        if first(&items[i]) {
+            items.swap(i, end);
+            end += 1;
+        }
+    }
+    end
+}

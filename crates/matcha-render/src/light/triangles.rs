@@ -1,0 +1,209 @@
+//! Emissive triangles of all instances, in world space.
+
+use super::world::luminance;
+use crate::device::light_importance::LightBounds;
+use crate::device::light_triangle::LightTriangle;
+use crate::scene::{Instance, Mesh, Scene};
+use glam::{Affine3A, Vec3};
+use rayon::prelude::*;
+
+/// Which sides of a surface shine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Sides {
+    /// Both.
+    #[default]
+    Both,
+    /// The side that the corners run around counter-clockwise.
+    Front,
+    /// The other.
+    Back,
+}
+
+/// What the renderer knows of a material's emission before it renders.
+#[derive(Clone, Copy, Debug)]
+pub struct MaterialEmission {
+    /// Mean radiance over the surface, W·sr⁻¹·m⁻².
+    pub radiance: Vec3,
+    /// The radiance is the same everywhere and in every direction.
+    pub constant: bool,
+    /// Where it leaves.
+    pub sides: Sides,
+}
+
+/// A triangle that shines.
+#[derive(Clone, Copy, Debug)]
+pub struct EmissiveTriangle {
+    /// Corners in the world.
+    pub corners: LightTriangle,
+    /// Index into `Scene::instances`.
+    pub instance: u32,
+    /// Triangle of the instance's mesh.
+    pub primitive: u32,
+    /// Index into `Scene::materials`.
+    pub material: u32,
+    /// The instance mirrors its mesh, so that the front is where corners run clockwise.
+    pub mirrored: bool,
+}
+
+impl EmissiveTriangle {
+    /// Unit normal of the front side.
+    #[inline]
+    pub fn normal(&self) -> Vec3 {
+        let c = &self.corners;
+        let normal = (c.b - c.a).cross(c.c - c.a).normalize_or_zero();
+        if self.mirrored { -normal } else { normal }
+    }
+}
+
+/// All emissive triangles with a way to find each.
+#[derive(Clone, Debug, Default)]
+pub struct Triangles {
+    /// The triangles; their index is their emitter in the light tree.
+    pub list: Vec<EmissiveTriangle>,
+    /// For each instance the start of its entries in `of_primitive`; `NONE` without emission.
+    first: Vec<u32>,
+    /// Emitter of each primitive of the instances with emission, or `NONE`.
+    of_primitive: Vec<u32>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Triangles {
+    /// Collects the triangles of a scene; `emission` has an entry for each material.
+    /// Triangles without area and materials that are not to be sampled are left out, and
+    /// everything beyond `limit` triangles.
+    pub fn collect(scene: &Scene, emission: &[Option<MaterialEmission>], limit: usize) -> Self {
+        let mut triangles = Self::default();
+        for (instance, index) in scene.instances.iter().zip(0..) {
+            triangles.first.push(NONE);
+            let Some(mesh) = scene.meshes.get(instance.mesh as usize) else {
+                continue;
+            };
+            let shines = |slot| sampled(scene, emission, material_of(mesh, instance, slot));
+            let slots = mesh
+                .material_slots
+                .len()
+                .max(instance.materials.len())
+                .max(1);
+            if (0..slots).any(shines) {
+                triangles.add_instance(mesh, instance, index, &shines, limit);
+            }
+        }
+        triangles
+    }
+
+    fn add_instance(
+        &mut self,
+        mesh: &Mesh,
+        instance: &Instance,
+        index: u32,
+        shines: &(impl Fn(usize) -> bool + Sync),
+        limit: usize,
+    ) {
+        let mirrored = instance.transform.matrix3.determinant() < 0.0;
+        let found: Vec<Option<EmissiveTriangle>> = (0..mesh.indices.len())
+            .into_par_iter()
+            .map(|primitive| {
+                let slot = mesh.slots.get(primitive).map_or(0, |&s| usize::from(s));
+                if !shines(slot) {
+                    return None;
+                }
+                let corners = corners(mesh, primitive, &instance.transform)?;
+                let material = material_of(mesh, instance, slot)?;
+                Some(EmissiveTriangle {
+                    corners,
+                    instance: index,
+                    primitive: primitive as u32,
+                    material,
+                    mirrored,
+                })
+            })
+            .collect();
+        if found.iter().all(Option::is_none) {
+            return;
+        }
+        if let Some(first) = self.first.last_mut() {
+            *first = self.of_primitive.len() as u32;
+        }
+        for triangle in found {
+            let room = self.list.len() < limit;
+            self.of_primitive.push(if triangle.is_some() && room {
+                self.list.len() as u32
+            } else {
+                NONE
+            });
+            self.list.extend(triangle.filter(|_| room));
+        }
+    }
+
+    /// Emitter of a primitive of an instance.
+    #[inline]
+    pub fn find(&self, instance: u32, primitive: u32) -> Option<u32> {
+        let first = *self.first.get(instance as usize)?;
+        if first == NONE {
+            return None;
+        }
+        let emitter = *self.of_primitive.get(first as usize + primitive as usize)?;
+        (emitter != NONE).then_some(emitter)
+    }
+
+    /// Bytes in memory.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.list[..])
+            + size_of_val(&self.first[..])
+            + size_of_val(&self.of_primitive[..])
+    }
+}
+
+/// Bounds of a triangle for the light tree.
+pub fn bounds(triangle: &EmissiveTriangle, emission: &MaterialEmission) -> LightBounds {
+    let c = &triangle.corners;
+    let area = 0.5 * (c.b - c.a).cross(c.c - c.a).length();
+    // Radiance that varies may be somewhere although its estimate is zero.
+    let radiance =
+        luminance(emission.radiance.abs()).max(if emission.constant { 1e-12 } else { 1e-3 });
+    LightBounds {
+        low: c.a.min(c.b).min(c.c),
+        high: c.a.max(c.b).max(c.c),
+        axis: if emission.sides == Sides::Back {
+            -triangle.normal()
+        } else {
+            triangle.normal()
+        },
+        cos_normals: 1.0,
+        cos_emission: 0.0,
+        power: radiance * area,
+        two_sided: emission.sides == Sides::Both,
+    }
+}
+
+fn material_of(mesh: &Mesh, instance: &Instance, slot: usize) -> Option<u32> {
+    instance
+        .materials
+        .get(slot)
+        .or_else(|| mesh.material_slots.get(slot))
+        .copied()
+}
+
+fn sampled(scene: &Scene, emission: &[Option<MaterialEmission>], material: Option<u32>) -> bool {
+    let Some(index) = material.map(|m| m as usize) else {
+        return false;
+    };
+    let Some(Some(emission)) = emission.get(index) else {
+        return false;
+    };
+    let wanted = scene
+        .materials
+        .get(index)
+        .is_some_and(|m| m.sample_emission);
+    let shines = !emission.constant || emission.radiance != Vec3::ZERO;
+    wanted && shines && emission.radiance.is_finite()
+}
+
+fn corners(mesh: &Mesh, primitive: usize, transform: &Affine3A) -> Option<LightTriangle> {
+    let [a, b, c] = mesh.indices[primitive].map(|i| mesh.positions.get(i as usize).copied());
+    let [a, b, c] = [a?, b?, c?].map(|p| transform.transform_point3(p));
+    let area = (b - a).cross(c - a).length();
+    // Not a number compares false.
+    (area > 0.0 && area.is_finite()).then_some(LightTriangle { a, b, c })
+}
