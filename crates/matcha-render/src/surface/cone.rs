@@ -10,7 +10,7 @@ const LEAST_COSINE: f32 = 1e-3;
 
 /// Growth of a cone per metre after a diffuse bounce. A hundred samples a pixel that share the
 /// hemisphere are about this far apart (2π/128 steradians each).
-const DIFFUSE_SPREAD: f32 = 0.22;
+pub const DIFFUSE_SPREAD: f32 = 0.22;
 
 /// Width of a cone after `distance` (section 2: w' = w + γ t, for small γ).
 #[inline(always)]

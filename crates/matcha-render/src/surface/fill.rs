@@ -1,7 +1,7 @@
 //! Input rows of a group of points, one quantity at a time.
 
 use super::point::{PathInfo, SurfacePoint};
-use super::tables::{SurfaceTables, unit_or};
+use super::tables::{SurfaceTables, material_of, unit_or};
 use crate::integrator::path::flags;
 use crate::scene::{Instance, Mesh, Scene};
 use glam::{Vec2, Vec3, Vec3A, Vec4};
@@ -235,6 +235,11 @@ impl Source<'_> {
         linear(point, Part::Value, vertices.map(|v| values[v as usize]))
     }
 
+    fn material_index(&self, point: &SurfacePoint) -> f32 {
+        let material = material_of(self.scene, point.instance, point.primitive);
+        material.and_then(|m| self.scene.materials.get(m as usize)).map_or(0.0, |m| m.pass_index)
+    }
+
     fn island(&self, point: &SurfacePoint) -> f32 {
         let islands = self.tables.islands.get(self.instance(point).mesh as usize);
         islands.map_or(0.0, |values| values[point.primitive as usize])
@@ -242,13 +247,12 @@ impl Source<'_> {
 }
 
 impl SurfaceTables {
-    /// Writes the rows that a program reads for a group of points; `material_index` is the
-    /// material's pass index. Layers that a mesh lacks read zero.
+    /// Writes the rows that a program reads for a group of points. Layers that a mesh lacks read
+    /// zero.
     pub fn fill(
         &self,
         scene: &Scene,
         inputs: &[(Input, usize)],
-        material_index: f32,
         points: &[SurfacePoint],
         rows: &mut Rows,
     ) {
@@ -261,7 +265,7 @@ impl SurfaceTables {
                 continue;
             }
             if !fill_varying(&source, input, first, points, rows) {
-                fill_constant(&source, input.kind, first, material_index, points, rows);
+                fill_constant(&source, input.kind, first, points, rows);
             }
         }
     }
@@ -311,7 +315,6 @@ fn fill_constant(
     source: &Source,
     kind: InputKind,
     first: usize,
-    material_index: f32,
     points: &[SurfacePoint],
     rows: &mut Rows,
 ) {
@@ -327,7 +330,7 @@ fn fill_constant(
         ObjectAlpha => each1(rows, first, points, |p| source.instance(p).color.w),
         ObjectIndex => each1(rows, first, points, |p| source.instance(p).pass_index),
         ObjectRandom => each1(rows, first, points, |p| source.instance(p).random),
-        MaterialIndex => each1(rows, first, points, |_| material_index),
+        MaterialIndex => each1(rows, first, points, |p| source.material_index(p)),
         _ => each1(rows, first, points, |p| path_quantity(kind, &p.path).unwrap_or(0.0)),
     }
 }

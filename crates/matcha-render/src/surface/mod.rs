@@ -18,5 +18,5 @@ mod view;
 
 pub use background::{BackgroundRay, fill_background};
 pub use point::{PathInfo, SurfacePoint};
-pub use tables::SurfaceTables;
+pub use tables::{SurfaceTables, material_of};
 pub use view::View;

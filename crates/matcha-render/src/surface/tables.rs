@@ -139,6 +139,15 @@ fn layers_of_attributes(mesh: &Mesh, names: usize) -> Vec<u16> {
     layers
 }
 
+/// Material of a triangle, an index into `Scene::materials`: that of its slot, of the instance
+/// where it replaces the mesh's. None if the slot has none.
+pub fn material_of(scene: &Scene, instance: u32, triangle: u32) -> Option<u32> {
+    let instance = scene.instances.get(instance as usize)?;
+    let mesh = scene.meshes.get(instance.mesh as usize)?;
+    let slot = mesh.slots.get(triangle as usize).map_or(0, |&slot| slot as usize);
+    instance.materials.get(slot).or_else(|| mesh.material_slots.get(slot)).copied()
+}
+
 /// Unit length, or `fallback` where there is none.
 #[inline(always)]
 pub(super) fn unit_or(v: Vec3, fallback: Vec3) -> Vec3 {

@@ -3,7 +3,9 @@ use super::*;
 use crate::accel::{Accel, Hit, Ray};
 use crate::camera::prepare;
 use crate::integrator::path::flags;
-use crate::scene::{Camera, Instance, Mesh, MeshAttribute, Scene, UvSet, Visibility};
+use crate::scene::{
+    Camera, Instance, Material, Mesh, MeshAttribute, Scene, Shader, UvSet, Visibility,
+};
 use glam::{Affine3A, Quat, Vec2, Vec3, Vec4};
 use matcha_shade::input::{Input, InputKind, Part};
 use matcha_shade::rows::Rows;
@@ -27,6 +29,7 @@ fn quad() -> Mesh {
         generated_origin: Vec3::new(0.0, 0.0, -1.0),
         generated_size: Vec3::new(1.0, 2.0, 0.0),
         positions,
+        material_slots: vec![0],
         ..Mesh::default()
     }
 }
@@ -46,6 +49,12 @@ fn scene(transform: Affine3A) -> Scene {
     Scene {
         meshes: vec![quad()],
         instances: vec![instance],
+        materials: vec![Material {
+            name: "m".into(),
+            shader: Shader::Cycles(0),
+            pass_index: 9.0,
+            sample_emission: true,
+        }],
         uv_names: vec!["".into(), "UVMap".into(), "absent".into()],
         attribute_names: vec!["Col".into(), "absent".into()],
         ..Scene::default()
@@ -79,7 +88,7 @@ fn path(direction: Vec3) -> PathInfo {
 fn rows_of(scene: &Scene, points: &[SurfacePoint], kind: InputKind, part: Part) -> Vec<Vec<f32>> {
     let mut rows = Rows::new(kind.width() + 1, points.len());
     let input = Input { kind, part };
-    tables(scene).fill(scene, &[(input, 1)], 9.0, points, &mut rows);
+    tables(scene).fill(scene, &[(input, 1)], points, &mut rows);
     (0..points.len()).map(|i| (0..kind.width()).map(|r| rows.get(r + 1, i)).collect()).collect()
 }
 
