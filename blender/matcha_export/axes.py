@@ -69,7 +69,8 @@ def trs(translation, rotation, scale):
         node["translation"] = [float(x) for x in translation]
     if not np.allclose(rotation, (0, 0, 0, 1), rtol=0.0, atol=1e-12):
         node["rotation"] = [float(x) for x in rotation]
-    if not np.allclose(scale, 1.0, rtol=1e-9, atol=0.0):
+    # Single precision turns a rotation's unit scale into 0.99999999.
+    if not np.allclose(scale, 1.0, rtol=5e-7, atol=0.0):
         node["scale"] = [float(x) for x in scale]
     return node
 

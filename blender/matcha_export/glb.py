@@ -23,7 +23,7 @@ class Glb:
         self.root = {"asset": {"version": "2.0", "generator": generator}}
         self._chunks = []
         self._size = 0
-        self._views_by_digest = {}
+        self._known = {}
 
     def append(self, name, entry):
         """Adds an object to a top-level array and returns its index."""
@@ -37,29 +37,38 @@ class Glb:
         if extension not in used:
             used.append(extension)
 
-    def view(self, data, target=None):
-        """Stores bytes, equal ones once, and returns the buffer view's index."""
+    def view(self, data):
+        """Stores bytes that no accessor describes, equal ones once; returns the view's index."""
         data = bytes(data)
-        key = (hashlib.blake2b(data, digest_size=16).digest(), target)
-        known = self._views_by_digest.get(key)
-        if known is not None:
-            return known
+        return self._once(("view", digest(data)), lambda: self._append_view(data, None))
+
+    def accessor(self, array, target=ARRAY_BUFFER, bounds=False):
+        """Stores an (n,) or (n, components) array, equal ones once; returns the accessor's index."""
+        array = np.ascontiguousarray(array)
+        data = array.tobytes()
+        # Bounds are part of the key: an accessor has a buffer view of its own, since views that
+        # several accessors share need a stride.
+        key = (digest(data), array.dtype.name, array.shape, target, bounds)
+        return self._once(key, lambda: self._append_accessor(array, data, target, bounds))
+
+    def _once(self, key, append):
+        if key not in self._known:
+            self._known[key] = append()
+        return self._known[key]
+
+    def _append_view(self, data, target):
         entry = {"buffer": 0, "byteOffset": self._size, "byteLength": len(data)}
         if target is not None:
             entry["target"] = target
         padding = -len(data) % 4
         self._chunks.append(data + b"\0" * padding)
         self._size += len(data) + padding
-        index = self.append("bufferViews", entry)
-        self._views_by_digest[key] = index
-        return index
+        return self.append("bufferViews", entry)
 
-    def accessor(self, array, target=ARRAY_BUFFER, bounds=False):
-        """Stores an (n,) or (n, components) array and returns the accessor's index."""
-        array = np.ascontiguousarray(array)
+    def _append_accessor(self, array, data, target, bounds):
         width = 1 if array.ndim == 1 else array.shape[1]
         entry = {
-            "bufferView": self.view(array.tobytes(), target),
+            "bufferView": self._append_view(data, target),
             "componentType": COMPONENT[array.dtype.name],
             "count": int(array.shape[0]),
             "type": SHAPE[width],
@@ -95,3 +104,8 @@ class Glb:
                 os.remove(beside)
             raise ExportError(f"{path}: cannot be written ({error.strerror}).") from error
         return total
+
+
+def digest(data):
+    """Identifies bytes."""
+    return hashlib.blake2b(data, digest_size=16).digest()

@@ -1,5 +1,7 @@
 """glTF meshes, each evaluated mesh once."""
 
+import json
+
 from . import geometry
 from .glb import ELEMENT_ARRAY_BUFFER
 from .numbers import numbers
@@ -55,19 +57,8 @@ class Meshes:
         return self._unique({"name": name, "primitives": primitives, "extensions": {"MATCHA_cycles": about}})
 
     def _unique(self, entry):
-        # Equal bytes share their buffer views, so that equal views mean equal geometry.
-        views = self.glb.root["accessors"]
-
-        def content(index):
-            accessor = views[index]
-            return accessor["bufferView"], accessor["componentType"], accessor["type"]
-
-        def shape(primitive):
-            semantics = tuple((k, content(a)) for k, a in sorted(primitive["attributes"].items()))
-            return semantics, content(primitive["indices"]), primitive["material"]
-
-        about = entry["extensions"]["MATCHA_cycles"]
-        key = (tuple(shape(p) for p in entry["primitives"]), repr(sorted(about.items())))
+        # Equal arrays share an accessor, so equal entries are equal meshes, whatever their names.
+        key = json.dumps([entry["primitives"], entry["extensions"]], sort_keys=True)
         if key not in self._by_content:
             self._by_content[key] = self.glb.append("meshes", entry)
         return self._by_content[key]

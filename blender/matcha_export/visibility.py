@@ -62,8 +62,7 @@ def name_hash(name):
     """Cycles' hash of an object's name: digits of base 37, modulo 2^32."""
     value = 0
     for byte in name.encode("utf-8"):
-        # Bytes are signed there.
-        value = (value * 37 + (byte - 256 if byte > 127 else byte)) & MASK
+        value = (value * 37 + byte) & MASK
     return value
 
 
