@@ -7,21 +7,23 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::mpsc::{self, Sender};
 
-/// The file of the add-on that is run.
-const ENTRY: &str = "cli.py";
-/// `MATCHA_PROGRESS 0.35 meshes`
-const PROGRESS: &str = "MATCHA_PROGRESS ";
-/// `MATCHA_ERROR one sentence`
-const ERROR: &str = "MATCHA_ERROR ";
+/// The file of the add-on that is run; its first lines document the command line.
+const ENTRY: &str = "export_cli.py";
+/// `MATCHA progress 0.35 meshes`
+const PROGRESS: &str = "MATCHA progress ";
+/// `MATCHA warning one sentence`
+const WARNING: &str = "MATCHA warning ";
+/// `MATCHA error one sentence`
+const ERROR: &str = "MATCHA error ";
 
-/// Exports `blend` to `glb`; otherwise the reason why not, one line.
+/// Exports `blend` to `glb` and returns the exporter's warnings; otherwise the reason why not, one line.
 pub(super) fn run(
     program: &Program,
     blend: &Path,
     glb: &Path,
     scripts: &Path,
     progress: &mut dyn FnMut(Progress),
-) -> Result<(), String> {
+) -> Result<Vec<String>, String> {
     let mut command = command(program, blend, glb, &scripts.join(ENTRY));
     command
         .env("PYTHONDONTWRITEBYTECODE", "1")
@@ -36,7 +38,7 @@ pub(super) fn run(
         child.stdout.take().map(|pipe| listen(pipe, send.clone())),
         child.stderr.take().map(|pipe| listen(pipe, send)),
     ];
-    let (mut reason, mut last) = (None, String::new());
+    let (mut reason, mut last, mut warnings) = (None, String::new(), Vec::new());
     for line in lines {
         if let Some(rest) = line.strip_prefix(PROGRESS) {
             let (fraction, what) = rest.split_once(' ').unwrap_or((rest, ""));
@@ -45,6 +47,8 @@ pub(super) fn run(
                 fraction,
                 what: what.to_owned(),
             });
+        } else if let Some(rest) = line.strip_prefix(WARNING) {
+            warnings.push(rest.to_owned());
         } else if let Some(rest) = line.strip_prefix(ERROR) {
             reason = Some(rest.to_owned());
         } else if !line.trim().is_empty() {
@@ -57,7 +61,7 @@ pub(super) fn run(
     }
     let status = child.wait().map_err(|error| error.to_string())?;
     match (status.success(), reason) {
-        (true, None) if glb.is_file() => Ok(()),
+        (true, None) if glb.is_file() => Ok(warnings),
         (_, Some(reason)) => Err(reason),
         (true, None) => Err(format!("it wrote no file (its last words: {last})")),
         (false, None) => Err(format!("{status}; its last words: {last}")),
@@ -76,12 +80,12 @@ fn command(program: &Program, blend: &Path, glb: &Path, entry: &Path) -> Command
             command
                 .args(["--python-exit-code", "1", "--python"])
                 .arg(entry);
-            command.args(["--", "--output"]).arg(glb);
+            command.arg("--").arg(glb).arg("--progress");
             command
         }
         Program::Python(path) => {
             let mut command = Command::new(path);
-            command.arg(entry).arg(blend).arg("--output").arg(glb);
+            command.arg(entry).arg(blend).arg(glb).arg("--progress");
             command
         }
     }
