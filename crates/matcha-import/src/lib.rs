@@ -11,6 +11,7 @@
 
 mod blend;
 mod budget;
+mod cycles;
 mod error;
 mod file;
 mod picture;
@@ -81,9 +82,12 @@ pub fn load(
     options: &LoadOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Imported, ImportError> {
-    let glb = match format(path)? {
-        Format::Gltf => path.to_owned(),
-        Format::Blend => blend::export(path, options, progress)?,
+    let (glb, warnings) = match format(path)? {
+        Format::Gltf => (path.to_owned(), Vec::new()),
+        Format::Blend => {
+            let exported = blend::export(path, options, progress)?;
+            (exported.glb, exported.warnings)
+        }
     };
     let bytes = std::fs::read(&glb).map_err(|source| ImportError::Read {
         file: glb.clone(),
@@ -96,6 +100,10 @@ pub fn load(
         .file_stem()
         .map(|stem| stem.to_string_lossy().into_owned())
         .unwrap_or_default();
+    for warning in warnings {
+        let what = ReportKind::Feature(format!("the exporter says: {warning}"));
+        imported.report.add(what, "", "exported without it");
+    }
     imported.report.check(options.strict)?;
     Ok(imported)
 }
@@ -162,7 +170,11 @@ fn load_from(
     progress(Progress::Scene);
     let document = Document::parse(bytes, folder, &budget)?;
     let mut textures = Textures::default();
-    let mut scene = plain::import(&document, &mut textures, &mut report)?;
+    let mut scene = if cycles::is_present(&document) {
+        cycles::import(&document, &mut textures, &mut report)?
+    } else {
+        plain::import(&document, &mut textures, &mut report)?
+    };
     scene.images = picture::decode_all(&textures.requests, &budget, &mut report, progress)?;
     progress(Progress::Tangents);
     tangent::generate_needed(&mut scene, &budget)?;

@@ -1,6 +1,7 @@
 //! What a scene asked for and did not get, once per kind.
 
 use crate::error::ImportError;
+use std::collections::HashMap;
 use std::fmt;
 
 /// What kind of thing was not taken as the file has it.
@@ -68,10 +69,10 @@ impl fmt::Display for ReportItem {
 }
 
 /// Everything that was substituted.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// Items in the order in which their kinds first occurred.
-    pub items: Vec<ReportItem>,
+    items: Vec<ReportItem>,
+    index: HashMap<ReportKind, usize>,
 }
 
 impl Report {
@@ -85,15 +86,23 @@ impl Report {
         if count == 0 {
             return;
         }
-        match self.items.iter_mut().find(|item| item.kind == kind) {
-            Some(item) => item.count += count,
-            None => self.items.push(ReportItem {
-                kind,
-                subject: subject.to_owned(),
-                substitute: substitute.to_owned(),
-                count,
-            }),
+        if let Some(&known) = self.index.get(&kind) {
+            self.items[known].count += count;
+            return;
         }
+        self.index.insert(kind.clone(), self.items.len());
+        let (subject, substitute) = (subject.to_owned(), substitute.to_owned());
+        self.items.push(ReportItem {
+            kind,
+            subject,
+            substitute,
+            count,
+        });
+    }
+
+    /// Items in the order in which their kinds first occurred.
+    pub fn items(&self) -> &[ReportItem] {
+        &self.items
     }
 
     /// Takes over another report's items.
@@ -105,14 +114,17 @@ impl Report {
 
     /// In strict mode, an error if anything that the author asked for was substituted.
     pub fn check(&self, strict: bool) -> Result<(), ImportError> {
-        let lost: Vec<_> = self
-            .items
-            .iter()
-            .filter(|item| !item.kind.is_note())
-            .cloned()
-            .collect();
-        if strict && !lost.is_empty() {
-            Err(ImportError::Strict(Report { items: lost }))
+        let mut lost = Report::default();
+        for item in self.items.iter().filter(|item| !item.kind.is_note()) {
+            lost.add_many(
+                item.kind.clone(),
+                &item.subject,
+                &item.substitute,
+                item.count,
+            );
+        }
+        if strict && !lost.items.is_empty() {
+            Err(ImportError::Strict(lost))
         } else {
             Ok(())
         }
@@ -163,6 +175,6 @@ mod tests {
         let Err(ImportError::Strict(lost)) = report.check(true) else {
             panic!("must be refused")
         };
-        assert_eq!(lost.items.len(), 1);
+        assert_eq!(lost.items().len(), 1);
     }
 }

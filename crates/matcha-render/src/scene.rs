@@ -61,6 +61,9 @@ pub struct Mesh {
     pub generated_origin: Vec3,
     /// Size of the Generated texture space.
     pub generated_size: Vec3,
+    /// Generated coordinates of each triangle's corners where modifiers moved the vertices
+    /// away from them; empty: as the box above gives them.
+    pub generated: Vec<[Vec3; 3]>,
 }
 
 /// A UV layer.

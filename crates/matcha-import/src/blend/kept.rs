@@ -1,6 +1,7 @@
 //! Exports that are kept. The name holds a hash of the `.blend`'s content and of the
 //! exporter; a small JSON beside it lists the other files that went in (textures,
-//! libraries) with size and time, so that a changed texture is exported again.
+//! libraries) with size and time, so that a changed texture is exported again, and what
+//! the exporter warned of.
 
 use super::EXPORTER;
 use crate::error::ImportError;
@@ -14,9 +15,16 @@ use std::time::UNIX_EPOCH;
 /// The place of a scene's export.
 pub(super) struct Kept {
     pub glb: PathBuf,
-    sources: PathBuf,
+    notes: PathBuf,
     /// Beginning of the names of all exports of this scene, also of its older versions.
     prefix: String,
+}
+
+/// What is kept beside an export.
+#[derive(Serialize, Deserialize)]
+struct Notes {
+    sources: Vec<SourceFile>,
+    warnings: Vec<String>,
 }
 
 /// A file that went into an export.
@@ -65,21 +73,19 @@ impl Kept {
         let name = format!("{prefix}{}", &content[..24]);
         Ok(Self {
             glb: folder.join(format!("{name}.matcha.glb")),
-            sources: folder.join(format!("{name}.sources.json")),
+            notes: folder.join(format!("{name}.notes.json")),
             prefix,
         })
     }
 
-    /// True if the export is there, and none of its sources has changed.
-    pub fn is_valid(&self) -> bool {
-        let listed: Option<Vec<SourceFile>> = fs::read(&self.sources)
-            .ok()
-            .and_then(|bytes| serde_json::from_slice(&bytes).ok());
-        self.glb.is_file()
-            && listed.is_some_and(|list| {
-                list.iter()
-                    .all(|file| SourceFile::of(file.path.clone()) == *file)
-            })
+    /// The exporter's warnings, if the export is there and none of its sources has changed.
+    pub fn valid(&self) -> Option<Vec<String>> {
+        let notes: Notes = serde_json::from_slice(&fs::read(&self.notes).ok()?).ok()?;
+        let same = notes
+            .sources
+            .iter()
+            .all(|file| SourceFile::of(file.path.clone()) == *file);
+        (same && self.glb.is_file()).then_some(notes.warnings)
     }
 
     /// A name beside the export that no other process uses.
@@ -89,22 +95,30 @@ impl Kept {
     }
 
     /// Moves a finished export to its place and forgets the older ones of the same scene.
-    pub fn keep(&self, partial: &Path) -> Result<(), ImportError> {
+    pub fn keep(&self, partial: &Path, warnings: &[String]) -> Result<(), ImportError> {
         let write = |source| ImportError::Write {
             file: self.glb.clone(),
             source,
         };
-        let sources: Vec<SourceFile> = external_files(partial)
+        let sources = external_files(partial)
             .into_iter()
             .map(SourceFile::of)
             .collect();
+        let notes = Notes {
+            sources,
+            warnings: warnings.to_vec(),
+        };
+        let json = serde_json::to_vec_pretty(&notes).map_err(|e| write(io::Error::other(e)))?;
+        // Notes that belong to another export must never stand beside this one.
+        if self.notes.exists() {
+            fs::remove_file(&self.notes).map_err(write)?;
+        }
         fs::rename(partial, &self.glb).map_err(write)?;
-        let json = serde_json::to_vec_pretty(&sources).map_err(|e| write(io::Error::other(e)))?;
         let beside = self
-            .sources
+            .notes
             .with_extension(format!("partial-{}", std::process::id()));
         fs::write(&beside, json)
-            .and_then(|()| fs::rename(&beside, &self.sources))
+            .and_then(|()| fs::rename(&beside, &self.notes))
             .map_err(write)?;
         self.forget_older();
         Ok(())
@@ -121,8 +135,8 @@ impl Kept {
         for path in entries.flatten().map(|entry| entry.path()) {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let ours = name.starts_with(&self.prefix)
-                && (name.ends_with(".matcha.glb") || name.ends_with(".sources.json"));
-            if ours && path != self.glb && path != self.sources {
+                && (name.ends_with(".matcha.glb") || name.ends_with(".notes.json"));
+            if ours && path != self.glb && path != self.notes {
                 // Nothing depends on it being gone.
                 let _ = fs::remove_file(&path);
             }

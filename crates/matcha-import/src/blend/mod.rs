@@ -13,15 +13,24 @@ use std::path::{Path, PathBuf};
 /// The add-on's files: path below `blender/`, content.
 static EXPORTER: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/exporter_files.rs"));
 
+/// An export, and what the exporter warned of.
+pub(crate) struct Exported {
+    pub glb: PathBuf,
+    pub warnings: Vec<String>,
+}
+
 /// The `.glb` of a `.blend` file: the kept one if nothing has changed, otherwise a new one.
 pub(crate) fn export(
     blend: &Path,
     options: &LoadOptions,
     progress: &mut dyn FnMut(Progress),
-) -> Result<PathBuf, ImportError> {
+) -> Result<Exported, ImportError> {
     let kept = Kept::locate(blend, options.cache_dir.as_deref())?;
-    if kept.is_valid() {
-        return Ok(kept.glb);
+    if let Some(warnings) = kept.valid() {
+        return Ok(Exported {
+            glb: kept.glb,
+            warnings,
+        });
     }
     let program = program::find(blend, options.blender.as_deref())?;
     let fail = |reason: String| ImportError::Export {
@@ -32,13 +41,20 @@ pub(crate) fn export(
     let scripts = write_exporter()
         .map_err(|error| fail(format!("the exporter cannot be written: {error}")))?;
     let partial = kept.partial();
-    let result = run::run(&program, blend, &partial, scripts.path(), progress);
-    if let Err(reason) = result {
-        let _ = std::fs::remove_file(&partial);
-        return Err(fail(reason));
+    match run::run(&program, blend, &partial, scripts.path(), progress) {
+        Ok(warnings) => {
+            kept.keep(&partial, &warnings)?;
+            Ok(Exported {
+                glb: kept.glb,
+                warnings,
+            })
+        }
+        Err(reason) => {
+            // There may be none.
+            let _ = std::fs::remove_file(&partial);
+            Err(fail(reason))
+        }
     }
-    kept.keep(&partial)?;
-    Ok(kept.glb)
 }
 
 fn write_exporter() -> std::io::Result<tempfile::TempDir> {

@@ -64,6 +64,27 @@ pub(crate) fn transforms(document: &Document<'_>, placed: &Placed) -> Checked<Ve
     Ok(all)
 }
 
+/// Random numbers of the copies, where the exporter stored them.
+pub(crate) fn randoms(document: &Document<'_>, placed: &Placed) -> Checked<Vec<f32>> {
+    let node = &document.root.nodes[placed.node];
+    let extension = node
+        .extensions
+        .as_ref()
+        .and_then(|e| e.others.get("EXT_mesh_gpu_instancing"));
+    let Some(extension) = extension else {
+        return Ok(Vec::new());
+    };
+    let place = format!("nodes[{}].extensions.EXT_mesh_gpu_instancing", placed.node);
+    let Some(accessor) = attribute(extension, "_RANDOM", &place)? else {
+        return Ok(Vec::new());
+    };
+    let values = document.floats::<1>(accessor, "random numbers")?;
+    Ok(values
+        .into_iter()
+        .map(|[x]| if x.is_finite() { x } else { 0.0 })
+        .collect())
+}
+
 fn attribute(extension: &Value, name: &str, place: &str) -> Checked<Option<usize>> {
     match extension
         .get("attributes")

@@ -38,20 +38,37 @@ impl Materials {
         if let Some(&index) = self.index.get(&(source, colored)) {
             return Ok(index);
         }
+        let material = match source {
+            Some(number) => Self::single(document, number, textures, uv_names, report)?,
+            None => Reader {
+                document,
+                textures,
+                uv_names,
+                report,
+            }
+            .material(usize::MAX, &GltfSource::default())?,
+        };
+        let index = self.list.len() as u32;
+        self.list.push((material, colored));
+        self.index.insert((source, colored), index);
+        Ok(index)
+    }
+
+    /// One material of the file on its own, without vertex colours.
+    pub fn single<'a>(
+        document: &'a Document<'a>,
+        number: usize,
+        textures: &mut Textures<'a>,
+        uv_names: &mut Names,
+        report: &mut Report,
+    ) -> Checked<Material> {
         let mut reader = Reader {
             document,
             textures,
             uv_names,
             report,
         };
-        let material = match source {
-            Some(number) => reader.material(number, &document.root.materials[number])?,
-            None => reader.material(usize::MAX, &GltfSource::default())?,
-        };
-        let index = self.list.len() as u32;
-        self.list.push((material, colored));
-        self.index.insert((source, colored), index);
-        Ok(index)
+        reader.material(number, &document.root.materials[number])
     }
 
     /// The materials, with the attribute of vertex colours filled in.

@@ -20,17 +20,31 @@ const FAR: f32 = 1e12;
 pub(crate) struct Naming<'n> {
     pub uv: &'n mut Names,
     pub attributes: &'n mut Names,
-    /// Names by semantic (`TEXCOORD_0`, `COLOR_1`, `_DIRT`), where the file gives them;
-    /// attributes that it gives none are left out. None: the semantics are the names.
-    pub known: Option<&'n BTreeMap<String, String>>,
+    /// What the file itself says; none: the semantics are the names.
+    pub known: Option<&'n Known>,
+}
+
+/// What an extension says about a mesh's layers and slots.
+pub(crate) struct Known {
+    /// Names by semantic (`TEXCOORD_0`, `COLOR_1`, `_DIRT`); others are left out.
+    pub names: BTreeMap<String, String>,
+    /// Slot of each primitive.
+    pub slots: Vec<u16>,
+    /// The semantic of Generated coordinates.
+    pub generated: Option<String>,
 }
 
 impl Naming<'_> {
     fn name(&self, semantic: &str) -> Option<String> {
         match self.known {
-            Some(known) => known.get(semantic).cloned(),
+            Some(known) => known.names.get(semantic).cloned(),
             None => Some(semantic.to_owned()),
         }
+    }
+
+    fn is_generated(&self, semantic: &str) -> bool {
+        self.known
+            .is_some_and(|known| known.generated.as_deref() == Some(semantic))
     }
 }
 
@@ -44,6 +58,7 @@ pub(crate) struct MeshBuilder {
     uv: BTreeMap<String, Vec<[Vec2; 3]>>,
     attributes: BTreeMap<String, Vec<[Vec4; 3]>>,
     smooth: bool,
+    slot_of_key: HashMap<Option<usize>, usize>,
     base_of_positions: HashMap<usize, (u32, usize)>,
     place: String,
     zero_area: u64,
@@ -69,6 +84,7 @@ impl MeshBuilder {
             uv: BTreeMap::new(),
             attributes: BTreeMap::new(),
             smooth: false,
+            slot_of_key: HashMap::new(),
             base_of_positions: HashMap::new(),
             place: format!("meshes[{index}]"),
             zero_area: 0,
@@ -135,7 +151,13 @@ impl MeshBuilder {
         self.mesh
             .indices
             .extend(triangles.iter().map(|t| t.map(|i| i + base)));
-        let slot = self.slot(primitive.material.map(|m| m.value()), &place)?;
+        let slot = match naming
+            .known
+            .map(|known| known.slots.get(number).copied().unwrap_or(0))
+        {
+            Some(slot) => slot,
+            None => self.slot(primitive.material.map(|m| m.value()), &place)?,
+        };
         self.mesh.slots.resize(self.mesh.indices.len(), slot);
         self.corners(
             document,
@@ -192,14 +214,10 @@ impl MeshBuilder {
     }
 
     fn slot(&mut self, material: Option<usize>, place: &str) -> Checked<u16> {
-        let slot = self
-            .slot_keys
-            .iter()
-            .position(|key| *key == material)
-            .unwrap_or_else(|| {
-                self.slot_keys.push(material);
-                self.slot_keys.len() - 1
-            });
+        let slot = *self.slot_of_key.entry(material).or_insert_with(|| {
+            self.slot_keys.push(material);
+            self.slot_keys.len() - 1
+        });
         u16::try_from(slot)
             .map_err(|_| Fault::new(place, "the mesh has more than 65,536 materials"))
     }
@@ -239,6 +257,9 @@ impl MeshBuilder {
                             )
                         })
                     }));
+                }
+                Semantic::Extras(_) if naming.is_generated(&name) => {
+                    self.generated(document, accessor, &run)?;
                 }
                 Semantic::Colors(_) | Semantic::Extras(_) => {
                     self.colored |= name == VERTEX_COLOR;
@@ -282,6 +303,24 @@ impl MeshBuilder {
         Ok(())
     }
 
+    /// Generated coordinates; they are in Blender's axes already.
+    fn generated(
+        &mut self,
+        document: &Document<'_>,
+        accessor: usize,
+        run: &Run<'_>,
+    ) -> Checked<()> {
+        let values = vertex_values::<3>(document, accessor, run, "generated coordinates")?;
+        self.mesh.generated.resize(run.first, [Vec3::ZERO; 3]);
+        for triangle in run.triangles {
+            let corner = |i: u32| Vec3::from_array(values[i as usize]);
+            let corners = triangle
+                .map(|i| finite(corner(i), Vec3::is_finite, Vec3::ZERO, &mut self.not_finite));
+            self.mesh.generated.push(corners);
+        }
+        Ok(())
+    }
+
     /// Flat normals for the triangles before `end` that have none.
     fn fill_flat(&mut self, end: usize) {
         for face in self.mesh.corner_normals.len()..end {
@@ -312,7 +351,10 @@ impl MeshBuilder {
                 corners,
             });
         }
-        if self.slot_keys.len() <= 1 {
+        if !self.mesh.generated.is_empty() {
+            self.mesh.generated.resize(total, [Vec3::ZERO; 3]);
+        }
+        if self.mesh.slots.iter().all(|&slot| slot == 0) {
             self.mesh.slots = Vec::new();
         }
         (self.mesh.generated_origin, self.mesh.generated_size) = bounds(&self.mesh.positions);

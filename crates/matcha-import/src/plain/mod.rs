@@ -2,7 +2,7 @@
 
 pub(crate) mod camera;
 pub(crate) mod hierarchy;
-mod instancing;
+pub(crate) mod instancing;
 pub(crate) mod light;
 pub(crate) mod material;
 pub(crate) mod mesh;

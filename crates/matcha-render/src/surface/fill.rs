@@ -204,6 +204,9 @@ impl Source<'_> {
 
     fn generated(&self, point: &SurfacePoint, part: Part) -> Vec3 {
         let mesh = self.mesh(point);
+        if let Some(corners) = mesh.generated.get(point.primitive as usize) {
+            return linear(point, part, *corners);
+        }
         let object = linear(point, part, self.corners(point));
         let offset = if part == Part::Value { mesh.generated_origin } else { Vec3::ZERO };
         let size = mesh.generated_size;
