@@ -1,0 +1,124 @@
+//! The two hashes: avalanche, distribution over cells, independence of each other.
+#![cfg(not(loom))]
+
+use matcha_cache::NodeSeed;
+use matcha_cache::device::key_hash::{cell_of, hash_texel};
+use matcha_cache::node_seed;
+
+fn bits(seed: NodeSeed, level: i32, i: i32, j: i32) -> u64 {
+    let hash = hash_texel(seed, level, i, j);
+    u64::from(hash.cell) << 32 | u64::from(hash.fingerprint)
+}
+
+/// Share of keys for which flipping input bit `flip` flips output bit `o`, for each `o`.
+fn flip_shares(flip: usize) -> [f64; 64] {
+    const KEYS: u32 = 8192;
+    let mut flips = [0u32; 64];
+    for k in 0..KEYS {
+        // Keys as they occur: small indices around zero, few levels, few nodes.
+        let (level, i, j) = ((k % 16) as i32, (k / 91) as i32 - 45, (k % 91) as i32 - 45);
+        let (material, node) = (k % 5, k % 7);
+        let seed = node_seed(material, node, 0);
+        let bit = 1 << (flip % 32);
+        let other = match flip / 32 {
+            0 => bits(seed, level ^ bit, i, j),
+            1 => bits(seed, level, i ^ bit, j),
+            2 => bits(seed, level, i, j ^ bit),
+            3 => bits(node_seed(material ^ bit as u32, node, 0), level, i, j),
+            _ => bits(node_seed(material, node ^ bit as u32, 0), level, i, j),
+        };
+        let changed = bits(seed, level, i, j) ^ other;
+        for (o, count) in flips.iter_mut().enumerate() {
+            *count += (changed >> o & 1) as u32;
+        }
+    }
+    flips.map(|count| f64::from(count) / f64::from(KEYS))
+}
+
+#[test]
+fn every_input_bit_flips_every_output_bit_half_of_the_time() {
+    for flip in 0..160 {
+        for (o, share) in flip_shares(flip).into_iter().enumerate() {
+            assert!(
+                (0.45..0.55).contains(&share),
+                "input bit {flip}, output bit {o}: {share}"
+            );
+        }
+    }
+}
+
+/// Chi² of counts against an even spread, in standard deviations from its mean.
+fn deviation_from_even(counts: &[u32]) -> f64 {
+    let total: u32 = counts.iter().sum();
+    let expected = f64::from(total) / counts.len() as f64;
+    let chi2: f64 = counts
+        .iter()
+        .map(|&c| (f64::from(c) - expected).powi(2) / expected)
+        .sum();
+    let degrees = (counts.len() - 1) as f64;
+    (chi2 - degrees) / (2.0 * degrees).sqrt()
+}
+
+fn spread(slots: usize, slot_of: impl Fn(u32, u32) -> usize) -> f64 {
+    let mut counts = vec![0u32; slots];
+    for node in 0..4 {
+        let seed = node_seed(node / 2, node, 0);
+        for i in -128..128 {
+            for j in -128..128 {
+                let hash = hash_texel(seed, 7, i, j);
+                counts[slot_of(hash.cell, hash.fingerprint)] += 1;
+            }
+        }
+    }
+    deviation_from_even(&counts)
+}
+
+#[test]
+fn squares_of_texels_spread_evenly() {
+    for cells in [1000u32, 4096, 9973] {
+        let deviation = spread(cells as usize, |cell, _| cell_of(cell, cells) as usize);
+        assert!(deviation.abs() < 5.0, "{cells} cells: {deviation}");
+    }
+    for shift in [0, 12, 20] {
+        let deviation = spread(4096, |_, fingerprint| {
+            (fingerprint >> shift & 4095) as usize
+        });
+        assert!(
+            deviation.abs() < 5.0,
+            "fingerprint bits from {shift}: {deviation}"
+        );
+    }
+}
+
+#[test]
+fn the_fingerprint_says_nothing_of_the_cell() {
+    for shift in [0, 13, 26] {
+        let joint = |cell: u32, fingerprint: u32| {
+            (cell_of(cell, 64) << 6 | (fingerprint >> shift & 63)) as usize
+        };
+        let deviation = spread(4096, joint);
+        assert!(
+            deviation.abs() < 5.0,
+            "fingerprint bits from {shift}: {deviation}"
+        );
+    }
+}
+
+/// 7.3 million neighbouring keys of several nodes and levels: pairs that agree in all 64 bits
+/// would be expected once in a million runs.
+#[test]
+fn neighbouring_keys_differ() {
+    let mut seen = Vec::new();
+    for node in 0..4 {
+        for level in [-1, 0, 8, 9] {
+            let seed = node_seed(node, node, 0);
+            for i in -170..170 {
+                seen.extend((-170..170).map(|j| bits(seed, level, i, j)));
+            }
+        }
+    }
+    let total = seen.len();
+    seen.sort_unstable();
+    seen.dedup();
+    assert_eq!(seen.len(), total);
+}
