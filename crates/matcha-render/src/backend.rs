@@ -2,7 +2,8 @@
 
 use crate::film::Film;
 use matcha_cache::CacheError;
-use matcha_shade::LowerError;
+use crate::accel::AccelError;
+use matcha_shade::nodes::LowerError;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
@@ -48,6 +49,9 @@ pub enum RenderError {
     /// A node tree makes no sense.
     #[error("{0}")]
     Lower(#[from] LowerError),
+    /// The geometry cannot be used.
+    #[error("{0}")]
+    Accel(#[from] AccelError),
     /// The material cache cannot be made.
     #[error("{0}")]
     Cache(#[from] CacheError),

@@ -66,6 +66,14 @@ pub struct Mesh {
     pub generated: Vec<[Vec3; 3]>,
 }
 
+impl Mesh {
+    /// Material of a triangle as an instance shows it: index into `Scene::materials`.
+    pub fn material_of(&self, instance: &Instance, triangle: u32) -> Option<u32> {
+        let slot = self.slots.get(triangle as usize).map_or(0, |&slot| usize::from(slot));
+        instance.materials.get(slot).or_else(|| self.material_slots.get(slot)).copied()
+    }
+}
+
 /// A UV layer.
 #[derive(Clone, Debug)]
 pub struct UvSet {

@@ -5,6 +5,7 @@
 //! into world space, into ONE hierarchy whose leaves are triangles or whole instances.
 
 use super::collapse::{Leaves, collapse};
+use super::memory::in_huge_pages;
 use super::node::{Bounds, LEAF_PACKS, Link, Node, PACK, Pack};
 use super::ray::visibility_mask;
 use super::traverse::Placement;
@@ -302,8 +303,8 @@ pub(super) fn build(scene: &Scene, options: &BuildOptions) -> Result<Accel, Acce
     let root = builder.add(&top, options)?;
     let (root, needed) = root.unwrap_or((Link::EMPTY, 0));
     Ok(Accel {
-        nodes: if root == Link::EMPTY { Vec::new() } else { builder.nodes },
-        packs: builder.packs,
+        nodes: if root == Link::EMPTY { Vec::new() } else { in_huge_pages(builder.nodes) },
+        packs: in_huge_pages(builder.packs),
         placements,
         masks: scene.instances.iter().map(|i| visibility_mask(&i.visibility)).collect(),
         root,

@@ -10,6 +10,7 @@ mod collapse;
 mod kernel;
 #[cfg(target_arch = "x86_64")]
 mod kernel_avx2;
+mod memory;
 mod node;
 mod ray;
 #[cfg(test)]
@@ -90,6 +91,16 @@ impl Accel {
             placements: &self.placements,
             masks: &self.masks,
             root: self.root,
+        }
+    }
+
+    /// Takes instances that let light through out of the sight of shadow rays and shows them
+    /// to [`ray_kind::TRANSPARENT_SHADOW`] rays instead. `transparent` has an entry an instance.
+    pub fn part_shadows(&mut self, transparent: &[bool]) {
+        for (mask, _) in self.masks.iter_mut().zip(transparent).filter(|(_, is)| **is) {
+            if *mask & ray_kind::SHADOW != 0 {
+                *mask = *mask & !ray_kind::SHADOW | ray_kind::TRANSPARENT_SHADOW;
+            }
         }
     }
 

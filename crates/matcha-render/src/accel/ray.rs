@@ -18,8 +18,10 @@ pub mod ray_kind {
     pub const TRANSMISSION: u8 = 8;
     /// Towards a light.
     pub const SHADOW: u8 = 16;
+    /// Towards a light, through surfaces that may let it pass.
+    pub const TRANSPARENT_SHADOW: u8 = 32;
     /// Sees everything that is not wholly invisible.
-    pub const ALL: u8 = 31;
+    pub const ALL: u8 = 63;
 }
 
 /// The bits of the kinds of rays that see something.

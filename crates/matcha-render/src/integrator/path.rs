@@ -23,9 +23,6 @@ pub mod flags {
     pub const TERMINATE: u32 = 1 << 7;
     /// Albedo, normal and depth are on the film.
     pub const FEATURES_DONE: u32 = 1 << 8;
-    /// The last bounce may not be hit by lights that next-event estimation samples:
-    /// the direction was singular, or nothing was sampled there.
-    pub const NO_MIS: u32 = 1 << 9;
     /// Some diffuse closure scattered the path before (for caustics).
     pub const DIFFUSE_ANCESTOR: u32 = 1 << 10;
 }
@@ -47,8 +44,10 @@ pub struct Path {
     pub direction: Vec3,
     /// Start of the ray, metres.
     pub t_min: f32,
-    /// Surface that the ray leaves: (instance, primitive), `u32::MAX` for none.
-    pub leaves: (u32, u32),
+    /// End of the ray, metres.
+    pub t_max: f32,
+    /// Surface that the ray leaves: instance and primitive, `accel::NOTHING` for none.
+    pub leaves: [u32; 2],
     /// Product of closure weights over probabilities.
     pub throughput: Vec3,
     /// Radiance gathered so far.
@@ -75,10 +74,6 @@ pub struct Path {
     pub mis_origin: Vec3,
     /// Normal there as light selection took it; zero for transmissive surfaces.
     pub mis_normal: Vec3,
-    /// Distance since the last scattering, over transparent surfaces, metres.
-    pub ray_length: f32,
-    /// Distance since the last vertex's origin, metres (for lights behind transparent surfaces).
-    pub mis_distance: f32,
     /// Width of the ray cone at the ray's origin, metres.
     pub cone_width: f32,
     /// Spread of the ray cone, radians.

@@ -1,0 +1,299 @@
+//! Node networks over groups of points: input rows, the machine, output rows, closures.
+
+use super::Frame;
+use super::path::{Path, flags};
+use super::worker::SurfaceTask;
+use crate::accel::Hit;
+use crate::closure::{self, ClosureContext, LobeSet, prepare_closure};
+use crate::light::Emission;
+use crate::node_cache::{MaterialCache, Scratch};
+use crate::surface::{BackgroundRay, PathInfo, SurfacePoint, fill_background};
+use glam::Vec3;
+use matcha_cache::CacheCounts;
+use matcha_shade::closure::ClosureKind;
+use matcha_shade::program::Program;
+use matcha_shade::rows::Rows;
+use matcha_shade::vm::{Machine, NodeCache};
+use std::time::{Duration, Instant};
+
+/// Rows of the largest closure, with room.
+const MOST_ROWS: usize = 64;
+
+/// One thread's machine and its buffers.
+pub struct Networks {
+    machine: Machine,
+    inputs: Rows,
+    outputs: Rows,
+    points: Vec<SurfacePoint>,
+    rays: Vec<BackgroundRay>,
+    found: Vec<f32>,
+    colors: Vec<Vec3>,
+    lobes: LobeSet,
+    material: u32,
+    scratch: Scratch,
+    /// What the cache did for this thread.
+    pub counts: CacheCounts,
+    /// Time spent in the machine.
+    pub time: Duration,
+}
+
+impl Networks {
+    /// Empty buffers and the best machine that the processor runs.
+    pub fn new() -> Self {
+        Self {
+            machine: Machine::new(None),
+            inputs: Rows::default(),
+            outputs: Rows::default(),
+            points: Vec::new(),
+            rays: Vec::new(),
+            found: Vec::new(),
+            colors: Vec::new(),
+            lobes: LobeSet::new(),
+            material: 0,
+            scratch: Scratch::default(),
+            counts: CacheCounts::default(),
+            time: Duration::ZERO,
+        }
+    }
+
+    /// Evaluates a material at the hits of a group.
+    pub fn surfaces(
+        &mut self,
+        frame: &Frame,
+        material: u32,
+        group: &[SurfaceTask],
+        paths: &[Path],
+    ) {
+        let hits = group.iter().map(|task| (task.hit, paths[task.path as usize].info(task.hit.t)));
+        self.evaluate(frame, material, hits);
+    }
+
+    fn evaluate(
+        &mut self,
+        frame: &Frame,
+        material: u32,
+        hits: impl Iterator<Item = (Hit, PathInfo)>,
+    ) {
+        self.material = material;
+        self.points.clear();
+        self.points
+            .extend(hits.map(|(hit, path)| frame.prepared.surfaces.point(frame.scene(), &hit, &path)));
+        let program = frame.program(material);
+        let n = self.points.len();
+        self.found.clear();
+        self.found.resize(n, 0.0);
+        let start = Instant::now();
+        self.inputs.resize(program.input_rows(), n);
+        frame.prepared.surfaces.fill(frame.scene(), &program.inputs, &self.points, &mut self.inputs);
+        let mut cache = frame.cache.map(|cache| {
+            MaterialCache::new(
+                cache.table,
+                material,
+                &mut self.found,
+                &mut self.counts,
+                &mut self.scratch,
+            )
+        });
+        self.machine.run(
+            program,
+            n,
+            &self.inputs,
+            &frame.prepared.textures,
+            cache.as_mut().map(|cache| cache as &mut dyn NodeCache),
+            frame.cache.map_or(0.0, |cache| cache.level_offset),
+            &mut self.outputs,
+        );
+        self.time += start.elapsed();
+    }
+
+    /// Cacheable nodes that the cache had for point `i` of the group.
+    pub fn nodes_found(&self, i: usize) -> f32 {
+        self.found[i]
+    }
+
+    /// Point `i` of the group.
+    pub fn point(&self, i: usize) -> &SurfacePoint {
+        &self.points[i]
+    }
+
+    /// Builds the closures of point `i` of the group.
+    pub fn closures(&self, frame: &Frame, i: usize, context: &ClosureContext, lobes: &mut LobeSet) {
+        let program = frame.program(self.material);
+        build_lobes(program, &self.outputs, i, &self.points[i], context, lobes);
+    }
+
+    /// Evaluates the world in the directions of paths that left the scene.
+    pub fn world_of_paths(&mut self, frame: &Frame, escaped: &[u32], paths: &[Path]) {
+        self.rays.clear();
+        self.rays.extend(escaped.iter().map(|&path| paths[path as usize].info(f32::INFINITY)));
+        self.world(frame);
+    }
+
+    /// Evaluates the world in directions that next-event estimation sampled.
+    pub fn world_of_directions(&mut self, frame: &Frame, directions: impl Iterator<Item = Vec3>) {
+        self.rays.clear();
+        self.rays.extend(directions.map(shadow_info));
+        self.world(frame);
+    }
+
+    fn world(&mut self, frame: &Frame) {
+        match frame.world_program() {
+            Ok(program) => self.run_background(frame, program),
+            Err(constant) => {
+                self.colors.clear();
+                self.colors.resize(self.rays.len(), constant);
+            }
+        }
+    }
+
+    fn run_background(&mut self, frame: &Frame, program: &Program) {
+        let n = self.rays.len();
+        let start = Instant::now();
+        self.inputs.resize(program.input_rows(), n);
+        fill_background(&frame.prepared.view, &program.inputs, &self.rays, &mut self.inputs);
+        self.machine.run(
+            program,
+            n,
+            &self.inputs,
+            &frame.prepared.textures,
+            None,
+            0.0,
+            &mut self.outputs,
+        );
+        self.time += start.elapsed();
+        self.colors.clear();
+        self.colors.extend((0..n).map(|i| radiance(program, &self.outputs, i)));
+    }
+
+    /// Radiance of an analytic light in the direction of a ray that meets it.
+    ///
+    /// A light's tree reads the direction as the world's does: lights have no surface that
+    /// programs could ask about.
+    pub fn light_radiance(&mut self, frame: &Frame, emission: &Emission, direction: Vec3) -> Vec3 {
+        let Emission::Tree { light, factor, .. } = *emission else {
+            return match *emission {
+                Emission::Constant(radiance) => radiance,
+                _ => Vec3::ZERO,
+            };
+        };
+        let scene_light = frame.prepared.lights.analytic()[light as usize].scene_light;
+        let Some(program) = frame.prepared.light_program(scene_light) else { return factor };
+        self.rays.clear();
+        self.rays.push(shadow_info(direction));
+        self.run_background(frame, program);
+        factor * self.colors[0]
+    }
+
+    /// Radiance of the world in direction `i`.
+    pub fn world_radiance(&self, i: usize) -> Vec3 {
+        self.colors[i]
+    }
+
+    /// Evaluates what a material emits at points towards where light was sampled from;
+    /// directions are those of the shadow rays, towards the points.
+    pub fn emission_of_points(
+        &mut self,
+        frame: &Frame,
+        material: u32,
+        points: impl Iterator<Item = (Hit, Vec3)>,
+    ) {
+        self.shadow_points(frame, material, points);
+        self.collect(frame, |lobes| lobes.emission);
+    }
+
+    /// Emission of point `i`.
+    pub fn emission(&self, i: usize) -> Vec3 {
+        self.colors[i]
+    }
+
+    /// Evaluates how much light passes straight through a material at points on shadow rays.
+    pub fn transparency_of_points(
+        &mut self,
+        frame: &Frame,
+        material: u32,
+        points: impl Iterator<Item = (Hit, Vec3)>,
+    ) {
+        self.shadow_points(frame, material, points);
+        self.collect(frame, |lobes| lobes.transparency);
+    }
+
+    /// Transparency of point `i`.
+    pub fn transparency(&self, i: usize) -> Vec3 {
+        self.colors[i]
+    }
+
+    fn shadow_points(
+        &mut self,
+        frame: &Frame,
+        material: u32,
+        points: impl Iterator<Item = (Hit, Vec3)>,
+    ) {
+        self.evaluate(frame, material, points.map(|(hit, towards)| (hit, shadow_info(towards))));
+    }
+
+    fn collect(&mut self, frame: &Frame, read: impl Fn(&LobeSet) -> Vec3) {
+        let context = ClosureContext { scatter: false, ..ClosureContext::default() };
+        let mut lobes = std::mem::take(&mut self.lobes);
+        self.colors.clear();
+        for i in 0..self.points.len() {
+            self.closures(frame, i, &context, &mut lobes);
+            self.colors.push(read(&lobes));
+        }
+        self.lobes = lobes;
+    }
+}
+
+impl Default for Networks {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// What a shadow ray knows.
+fn shadow_info(direction: Vec3) -> PathInfo {
+    PathInfo {
+        direction,
+        flags: flags::SHADOW,
+        // As wide as the cone after a diffuse bounce: what light carries is blurred anyway.
+        cone_spread: crate::surface::cone::DIFFUSE_SPREAD,
+        ..Default::default()
+    }
+}
+
+/// Sum of the emitting closures of point `i`: a world's or a light's radiance.
+pub fn radiance(program: &Program, outputs: &Rows, i: usize) -> Vec3 {
+    program
+        .closures
+        .iter()
+        .filter(|c| matches!(c.kind, ClosureKind::Background | ClosureKind::Emission))
+        .map(|c| Vec3::from_array(std::array::from_fn(|k| outputs.row(c.first_row + k)[i])))
+        .filter(|light| light.is_finite())
+        .sum()
+}
+
+/// Makes the lobes of point `i` from its output rows.
+fn build_lobes(
+    program: &Program,
+    outputs: &Rows,
+    i: usize,
+    point: &SurfacePoint,
+    context: &ClosureContext,
+    lobes: &mut LobeSet,
+) {
+    let frame = closure::Frame {
+        n: point.normal,
+        ng: point.true_normal,
+        wo: point.outgoing,
+        backfacing: point.backfacing,
+        bump_correction: true,
+    };
+    lobes.begin(&frame);
+    for output in &program.closures {
+        let mut rows = [0.0; MOST_ROWS];
+        let count = output.kind.rows();
+        for (k, value) in rows[..count].iter_mut().enumerate() {
+            *value = outputs.row(output.first_row + k)[i];
+        }
+        prepare_closure(output.kind, &rows[..count], &frame, context, lobes);
+    }
+}

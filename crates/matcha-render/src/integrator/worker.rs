@@ -1,0 +1,264 @@
+//! One thread's batch of paths and the loop over its stages.
+
+use super::Frame;
+use super::networks::Networks;
+use super::path::{Path, clamp_contribution, flags};
+use crate::accel::{Hit, Ray};
+use crate::closure::LobeSet;
+use crate::film::{PixelSums, Tile};
+use crate::light::{Emission, LightHit};
+use glam::Vec3;
+use matcha_cache::CacheCounts;
+use std::ops::Range;
+use std::time::Duration;
+
+/// Paths in flight on one thread (settled by measurement, see `docs/adr/0004-batches.md`).
+pub const BATCH: usize = 2048;
+
+/// A path at a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceTask {
+    /// Index into the batch.
+    pub path: u32,
+    /// Material at the hit.
+    pub material: u32,
+    /// Where.
+    pub hit: Hit,
+}
+
+/// A sampled light on its way through the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct LightTask {
+    /// Index into the batch.
+    pub path: u32,
+    /// Contribution if nothing is in between; without the radiance where that is still
+    /// to be evaluated.
+    pub value: Vec3,
+    /// The shadow ray.
+    pub ray: Ray,
+    /// Objects block the light.
+    pub casts_shadow: bool,
+    /// Bounces of the path at the surface, for the clamps.
+    pub bounce: u32,
+    /// Transparent surfaces that the ray may still pass.
+    pub transparent: u32,
+    /// Emission that must be evaluated first.
+    pub emitter: Emitter,
+}
+
+/// What must be evaluated to know a light sample's radiance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Emitter {
+    /// Nothing: it is part of the value.
+    Known,
+    /// A point on a triangle.
+    Surface(Hit),
+    /// The world in the ray's direction.
+    World,
+    /// An analytic light's node tree, in the ray's direction.
+    Light(Emission),
+}
+
+/// Counts of one thread.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counts {
+    /// Rays traced.
+    pub rays: u64,
+    /// Shading points.
+    pub shaded: u64,
+}
+
+/// A thread's state, kept from tile to tile.
+pub struct Worker {
+    pub(super) paths: Vec<Path>,
+    active: Vec<u32>,
+    free: Vec<u32>,
+    pub(super) finished: Vec<u32>,
+    pub(super) surface_tasks: Vec<SurfaceTask>,
+    pub(super) light_tasks: Vec<LightTask>,
+    escaped: Vec<u32>,
+    pub(super) networks: Networks,
+    pub(super) lobes: LobeSet,
+    pub(super) counts: Counts,
+}
+
+impl Worker {
+    /// An empty batch.
+    pub fn new() -> Self {
+        Self {
+            paths: Vec::with_capacity(BATCH),
+            active: Vec::with_capacity(BATCH),
+            free: Vec::with_capacity(BATCH),
+            finished: Vec::new(),
+            surface_tasks: Vec::new(),
+            light_tasks: Vec::new(),
+            escaped: Vec::new(),
+            networks: Networks::new(),
+            lobes: LobeSet::default(),
+            counts: Counts::default(),
+        }
+    }
+
+    /// Rays and shading points so far.
+    pub fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// What the cache did for this thread.
+    pub fn cache_counts(&self) -> CacheCounts {
+        self.networks.counts
+    }
+
+    /// Time that this thread spent in node networks.
+    pub fn network_time(&self) -> Duration {
+        self.networks.time
+    }
+
+    /// Renders samples `range` of a tile into `sums`, one entry a pixel.
+    pub fn render_tile(
+        &mut self,
+        frame: &Frame,
+        tile: &Tile,
+        range: Range<u32>,
+        sums: &mut [PixelSums],
+    ) {
+        let per_pixel = range.len() as u64;
+        let total = per_pixel * u64::from(tile.pixels());
+        let mut next = 0;
+        loop {
+            next = self.fill(frame, tile, &range, next, total);
+            if self.active.is_empty() {
+                return;
+            }
+            self.traverse(frame);
+            self.shade_surfaces(frame);
+            self.shade_escaped(frame);
+            self.trace_lights(frame);
+            self.retire(sums);
+        }
+    }
+
+    /// Starts paths until the batch is full; paths of one sample of the tile's pixels are
+    /// neighbours. Returns the index of the next path to start.
+    fn fill(
+        &mut self,
+        frame: &Frame,
+        tile: &Tile,
+        range: &Range<u32>,
+        mut next: u64,
+        total: u64,
+    ) -> u64 {
+        let pixels = u64::from(tile.pixels());
+        while self.active.len() < BATCH && next < total {
+            let sample = range.start + (next / pixels) as u32;
+            let path = frame.start_path(tile, (next % pixels) as u32, sample);
+            let slot = self.free.pop().unwrap_or_else(|| {
+                self.paths.push(path);
+                self.paths.len() as u32 - 1
+            });
+            self.paths[slot as usize] = path;
+            self.active.push(slot);
+            next += 1;
+        }
+        next
+    }
+
+    /// Finds what every path meets next.
+    fn traverse(&mut self, frame: &Frame) {
+        for &index in &self.active {
+            let path = &mut self.paths[index as usize];
+            let hit = frame.prepared.accel.closest(&path.ray());
+            self.counts.rays += 1;
+            let reach = hit.map_or(path.t_max, |hit| hit.t);
+            add_lights_on_the_way(frame, &mut self.networks, path, reach);
+            match hit {
+                Some(hit) => self.surface_tasks.push(SurfaceTask {
+                    path: index,
+                    material: frame.material_of(&hit),
+                    hit,
+                }),
+                None => self.escaped.push(index),
+            }
+        }
+    }
+
+    /// Adds the world's light to the paths that left the scene.
+    fn shade_escaped(&mut self, frame: &Frame) {
+        let mut escaped = std::mem::take(&mut self.escaped);
+        if !escaped.is_empty() {
+            self.networks.world_of_paths(frame, &escaped, &self.paths);
+            for (i, &index) in escaped.iter().enumerate() {
+                let radiance = self.networks.world_radiance(i);
+                let path = &mut self.paths[index as usize];
+                add_world(frame, &mut self.networks, path, radiance);
+            }
+            self.finished.append(&mut escaped);
+        }
+        self.escaped = escaped;
+    }
+
+    /// Puts finished paths on the film and frees their places.
+    fn retire(&mut self, sums: &mut [PixelSums]) {
+        // In the order of the batch, so that sums do not depend on the order of stages.
+        self.finished.sort_unstable();
+        for &index in &self.finished {
+            self.paths[index as usize].add_to(sums);
+        }
+        if !self.finished.is_empty() {
+            let finished = &self.finished;
+            self.active.retain(|index| finished.binary_search(index).is_err());
+            self.free.extend_from_slice(finished);
+        }
+        self.finished.clear();
+    }
+}
+
+impl Default for Worker {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Adds the analytic lights that a path's ray meets before `reach`; rays go through them.
+fn add_lights_on_the_way(frame: &Frame, networks: &mut Networks, path: &mut Path, reach: f32) {
+    let lights = &frame.prepared.lights;
+    if lights.nothing_to_meet() {
+        return;
+    }
+    let kind = path.ray_kind();
+    let (origin, direction) = (path.origin, path.direction);
+    let mut from = path.t_min;
+    while let Some((light, t)) = lights.intersect(origin, direction, from, reach, kind) {
+        if let Some(hit) = lights.hit(light, path.mis_origin, path.mis_normal, direction, t) {
+            add_light(frame, networks, path, &hit);
+        }
+        from = t.next_up();
+    }
+}
+
+fn add_light(frame: &Frame, networks: &mut Networks, path: &mut Path, hit: &LightHit) {
+    if u32::from(path.bounce) > hit.max_bounces {
+        return;
+    }
+    let weight = path.weight_against(hit.pdf);
+    let radiance = networks.light_radiance(frame, &hit.radiance, path.direction);
+    let light = path.throughput * radiance * weight;
+    path.radiance += clamp_contribution(light, path.light_bounce(), frame.settings());
+}
+
+fn add_world(frame: &Frame, networks: &mut Networks, path: &mut Path, radiance: Vec3) {
+    if path.flags & flags::CAMERA != 0 && frame.settings().transparent_film {
+        path.alpha -= path.throughput.element_sum() / 3.0;
+        return;
+    }
+    let lights = &frame.prepared.lights;
+    let (p, n, direction) = (path.mis_origin, path.mis_normal, path.direction);
+    for sun in lights.escaped(p, n, direction, path.ray_kind()) {
+        add_light(frame, networks, path, &sun);
+    }
+    if frame.world_is_seen_by(path) {
+        let weight = path.weight_against(lights.pdf_world(p, n, direction));
+        let light = path.throughput * radiance * weight;
+        path.radiance += clamp_contribution(light, path.light_bounce(), frame.settings());
+    }
+}
