@@ -1,6 +1,10 @@
 //! From a lowered material to a program.
 
+use crate::cacheability;
+use crate::emit::emit;
+use crate::graph::NodeId;
 use crate::material::MaterialGraph;
+use crate::opt::{self, Network};
 use crate::program::{Program, ProgramError};
 
 /// Estimated costs, ns a point in lanes, of what is not an operation of the table.
@@ -62,15 +66,41 @@ pub struct PassStatistics {
 pub struct Compiled {
     /// What the machine runs.
     pub program: Program,
+    /// What it was emitted from.
+    pub network: Network,
+    /// The network's cacheable nodes that got a region, in the regions' order, each
+    /// with its UV set.
+    pub cached: Vec<(NodeId, u16)>,
     /// Sizes, in order of the passes.
     pub passes: Vec<PassStatistics>,
 }
 
 /// Compiles a material.
-pub fn compile(_material: &MaterialGraph, _options: &Options) -> Result<Compiled, ProgramError> {
-    Err(ProgramError::TooLarge {
-        what: "words",
-        count: 0,
-        limit: 0,
+pub fn compile(material: &MaterialGraph, options: &Options) -> Result<Compiled, ProgramError> {
+    let (mut network, passes) = if options.optimise {
+        opt::optimise(material)
+    } else {
+        let network = opt::flatten::run(material);
+        let statistics = network.statistics("flatten");
+        (network, vec![statistics])
+    };
+    let cached = if options.cache {
+        network = cacheability::split_wide(&network);
+        cacheability::choose(&network, &options.cost)
+    } else {
+        Vec::new()
+    };
+    let program = emit(
+        &network,
+        &cached,
+        &options.cost,
+        &material.name,
+        material.kind,
+    )?;
+    Ok(Compiled {
+        program,
+        network,
+        cached,
+        passes,
     })
 }

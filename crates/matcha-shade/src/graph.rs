@@ -322,6 +322,15 @@ impl Graph {
         crate::shifted::shifted(self, root, axis, scale)
     }
 
+    /// A graph with the same tables and no nodes.
+    pub(crate) fn without_nodes(&self) -> Graph {
+        Graph {
+            nodes: Vec::new(),
+            tables: self.tables.clone(),
+            span: self.span,
+        }
+    }
+
     /// Appends a node as it is; used by passes that rebuild a graph.
     pub(crate) fn push_node(&mut self, node: Node) -> NodeId {
         debug_assert!(node.inputs.iter().all(|i| i.index() < self.nodes.len()));

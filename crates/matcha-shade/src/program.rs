@@ -93,29 +93,71 @@ pub struct Program {
     /// What it reads, with the first row of each in the input matrix.
     pub inputs: Vec<(Input, usize)>,
     /// Rows of the input matrix; they are loaded into the registers of the same number.
-    pub input_rows: usize,
+    pub(crate) input_rows: usize,
     /// The words: regions first.
-    pub words: Vec<Word>,
+    pub(crate) words: Vec<Word>,
     /// Registers that the machine needs.
-    pub slots: usize,
+    pub(crate) slots: usize,
     /// Cacheable nodes, in the order of their words.
-    pub regions: Vec<Region>,
+    pub(crate) regions: Vec<Region>,
     /// Constants by index.
-    pub constants: Vec<f32>,
+    pub(crate) constants: Vec<f32>,
     /// Images by index.
-    pub textures: Vec<TextureRef>,
+    pub(crate) textures: Vec<TextureRef>,
     /// Ramps and curves by index.
-    pub tables: Vec<Table>,
+    pub(crate) tables: Vec<Table>,
     /// Closures in order.
     pub closures: Vec<ClosureOutput>,
     /// The operand (register or constant) that each output row is read from.
-    pub outputs: Vec<u16>,
+    pub(crate) outputs: Vec<u16>,
     /// Estimated cost without the cache, ns a point.
     pub cost: f32,
     pub(crate) splats: Vec<Splat>,
 }
 
+// What the machine relies on is read-only outside of the crate: a program that exists
+// has passed the verifier.
 impl Program {
+    /// The words: regions first.
+    pub fn words(&self) -> &[Word] {
+        &self.words
+    }
+
+    /// Registers that the machine needs.
+    pub fn slots(&self) -> usize {
+        self.slots
+    }
+
+    /// Cacheable nodes, in the order of their words.
+    pub fn regions(&self) -> &[Region] {
+        &self.regions
+    }
+
+    /// Constants by index.
+    pub fn constants(&self) -> &[f32] {
+        &self.constants
+    }
+
+    /// Images by index.
+    pub fn textures(&self) -> &[TextureRef] {
+        &self.textures
+    }
+
+    /// Ramps and curves by index.
+    pub fn tables(&self) -> &[Table] {
+        &self.tables
+    }
+
+    /// The operand (register or constant) that each output row is read from.
+    pub fn outputs(&self) -> &[u16] {
+        &self.outputs
+    }
+
+    /// Rows of the input matrix; they are loaded into the registers of the same number.
+    pub fn input_rows(&self) -> usize {
+        self.input_rows
+    }
+
     /// Rows of the output matrix.
     pub fn output_rows(&self) -> usize {
         self.outputs.len()

@@ -6,13 +6,20 @@
 //! hits. A result depends only on the hit's own inputs, bit for bit: not on the other
 //! hits of the group, their number or order, nor on the instruction set.
 
+mod core;
 pub mod kernel;
+mod region;
+pub mod scalar;
+mod tables;
 
+use kernel::Kernel;
 pub use kernel::{Isa, LANES};
 
 pub use crate::rows::Rows;
 
+use self::core::Core;
 use crate::graph::TextureRef;
+use crate::ops;
 use crate::program::{Program, Region};
 
 /// Images, for the machine.
@@ -65,15 +72,40 @@ pub struct RunCounts {
 /// Registers and scratch memory of one thread.
 pub struct Machine {
     isa: Isa,
+    kernels: Vec<Kernel>,
+    registers: Rows,
+    cached: Cached,
+}
+
+/// Scratch memory of the regions of a run.
+#[derive(Default)]
+struct Cached {
+    /// Results of all regions, over the whole group.
+    results: Rows,
+    /// One region's values as the cache gave them.
+    values: Rows,
+    /// Values of the points that were not found, without gaps.
+    computed: Rows,
+    texels: Vec<Texel>,
+    found: Vec<bool>,
+    missed: Vec<u32>,
 }
 
 impl Machine {
     /// A machine for an instruction set, or for the best that this processor has.
     /// One that the processor lacks is replaced by the best.
     pub fn new(isa: Option<Isa>) -> Self {
-        let best = Isa::best();
-        let isa = isa.filter(|i| Isa::available().contains(i)).unwrap_or(best);
-        Machine { isa }
+        let available = Isa::available();
+        let isa = isa.filter(|i| available.contains(i)).unwrap_or(Isa::best());
+        let kernels = ops::all()
+            .map(|op| isa.kernel(&op.info().kernels))
+            .collect();
+        Machine {
+            isa,
+            kernels,
+            registers: Rows::default(),
+            cached: Cached::default(),
+        }
     }
 
     /// The instruction set in use.
@@ -85,6 +117,9 @@ impl Machine {
     /// given its output rows (for each closure: weight, then parameters). Without a
     /// cache the regions of a program are evaluated at their virtual texels all the
     /// same, for every hit. `level_offset` is added to λ.
+    ///
+    /// # Panics
+    /// If `inputs` has fewer rows or points than asked for.
     #[allow(clippy::too_many_arguments)]
     pub fn run(
         &mut self,
@@ -96,8 +131,96 @@ impl Machine {
         level_offset: f32,
         out: &mut Rows,
     ) -> RunCounts {
-        let _ = (inputs, textures, cache, level_offset);
+        assert!(inputs.rows() >= program.input_rows(), "rows of the inputs");
+        assert!(
+            inputs.points() >= n || program.input_rows() == 0,
+            "points of the inputs"
+        );
         out.resize(program.output_rows(), n);
-        RunCounts::default()
+        let mut counts = RunCounts::default();
+        if n == 0 {
+            return counts;
+        }
+        let Machine {
+            isa,
+            kernels,
+            registers,
+            cached,
+        } = self;
+        registers.resize(1, program.slots() * LANES);
+        let group = Group {
+            program,
+            n,
+            inputs,
+            textures,
+            level_offset,
+        };
+        let registers = registers.row_mut(0);
+        // So that a test sees it if a word reads what a skipped region did not write.
+        #[cfg(debug_assertions)]
+        registers.fill(f32::NAN);
+        if *isa == Isa::Scalar {
+            run_group::<1>(&group, kernels, registers, cached, cache, out, &mut counts);
+        } else {
+            run_group::<LANES>(&group, kernels, registers, cached, cache, out, &mut counts);
+        }
+        counts
     }
+}
+
+/// One call of [`Machine::run`].
+struct Group<'a> {
+    program: &'a Program,
+    n: usize,
+    inputs: &'a Rows,
+    textures: &'a dyn Textures,
+    level_offset: f32,
+}
+
+fn run_group<const N: usize>(
+    group: &Group,
+    kernels: &[Kernel],
+    registers: &mut [f32],
+    cached: &mut Cached,
+    mut cache: Option<&mut dyn NodeCache>,
+    out: &mut Rows,
+    counts: &mut RunCounts,
+) {
+    let program = group.program;
+    let mut core = Core::<N>::new(program, kernels, registers, group.textures);
+    let width = program.regions().iter().map(|r| r.ty.width()).sum();
+    cached.results.resize(width, group.n);
+    let mut first = 0;
+    for region in program.regions() {
+        // A reborrow that the loop can repeat.
+        let cache = cache.as_mut().map(|c| &mut **c as &mut dyn NodeCache);
+        region::run(group, region, &mut core, cached, cache, first, counts);
+        first += region.ty.width();
+    }
+    let words = program.rest()..program.words().len();
+    for start in (0..group.n).step_by(N) {
+        let active = N.min(group.n - start);
+        for row in 0..program.input_rows() {
+            core.load(row, &group.inputs.row(row)[start..], active);
+        }
+        let mut row = 0;
+        for region in program.regions() {
+            for i in 0..region.ty.width() {
+                core.load(
+                    region.result as usize + i,
+                    &cached.results.row(row)[start..],
+                    active,
+                );
+                row += 1;
+            }
+        }
+        core.execute(words.clone(), active);
+        for (row, &operand) in out
+            .rows_mut(0, program.output_rows())
+            .zip(program.outputs())
+        {
+            row[start..start + N].copy_from_slice(core.value(operand));
+        }
+    }
+    counts.texture_samples += core.texture_samples;
 }

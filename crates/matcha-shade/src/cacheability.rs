@@ -1,0 +1,281 @@
+//! Which values are worth a place in the cache (Fujieda and Harada 2022, section 3.1):
+//! highest nodes that depend on one UV set and nothing else, if they cost more than a
+//! look-up does.
+
+use crate::closure::Ty;
+use crate::compile::CostModel;
+use crate::graph::{Encoding, Graph, NodeId, NodeKind};
+use crate::input::Dependency;
+use crate::opt::Network;
+
+/// What a value depends on if it is made of two.
+pub fn join(a: Dependency, b: Dependency) -> Dependency {
+    match (a, b) {
+        (Dependency::Uv(one), Dependency::Uv(other)) if one != other => Dependency::Surface,
+        _ => a.max(b),
+    }
+}
+
+/// Every node's dependency.
+pub fn dependencies(graph: &Graph) -> Vec<Dependency> {
+    let mut of: Vec<Dependency> = Vec::with_capacity(graph.nodes().len());
+    for node in graph.nodes() {
+        let own = match node.kind {
+            NodeKind::Input(input) => input.kind.dependency(),
+            _ => Dependency::Constant,
+        };
+        of.push(node.inputs.iter().fold(own, |d, i| join(d, of[i.index()])));
+    }
+    of
+}
+
+/// A node's own cost, ns a point, without its inputs'.
+pub fn own_cost(graph: &Graph, id: NodeId, model: &CostModel) -> f32 {
+    match graph.node(id).kind {
+        NodeKind::Apply(op, _) => op.info().cost,
+        NodeKind::Texture(_) => model.texture_ns,
+        NodeKind::Table(_) => model.table_ns,
+        _ => 0.0,
+    }
+}
+
+/// Cost of everything that the outputs need, computed once.
+pub fn network_cost(network: &Network, model: &CostModel) -> f32 {
+    let live = network.live();
+    let ids = network.graph.ids().filter(|id| live[id.index()]);
+    ids.map(|id| own_cost(&network.graph, id, model)).sum()
+}
+
+/// Rewrites a network so that no highest cacheable node is wider than a cache value can
+/// be: a colour with alpha is cached as a colour and a number.
+pub fn split_wide(network: &Network) -> Network {
+    let wide: Vec<bool> = {
+        let candidates = candidates(network);
+        let mut wide = vec![false; network.graph.nodes().len()];
+        for id in candidates {
+            wide[id.index()] = network.graph.ty(id) == Ty::F4;
+        }
+        wide
+    };
+    if !wide.contains(&true) {
+        return network.clone();
+    }
+    // `rewrite` visits live nodes in order; the old index is found by counting.
+    let live = network.live();
+    let mut old = network.graph.ids().filter(|id| live[id.index()]);
+    crate::opt::rewrite(network, |graph, node| {
+        let is_wide = wide[old.next().expect("one live node a step").index()];
+        let id = graph.push_node(node);
+        if !is_wide {
+            return id;
+        }
+        let color = graph.extract(id, 0, Ty::F3);
+        let alpha = graph.component(id, 3);
+        graph.combine(&[color, alpha])
+    })
+}
+
+/// The nodes to cache, in order of evaluation, and the UV set of each. Choose on a
+/// network after [`split_wide`].
+pub fn choose(network: &Network, model: &CostModel) -> Vec<(NodeId, u16)> {
+    let dependencies = dependencies(&network.graph);
+    let mut chosen = candidates(network);
+    chosen.retain(|&id| network.graph.ty(id) != Ty::F4);
+    let mut choice = Choice {
+        network,
+        model,
+        chosen,
+    };
+    choice.drop_what_does_not_pay();
+    choice
+        .chosen
+        .into_iter()
+        .map(|id| match dependencies[id.index()] {
+            Dependency::Uv(set) => (id, set),
+            other => unreachable!("candidates depend on one UV set, not on {other:?}"),
+        })
+        .collect()
+}
+
+/// Highest nodes that depend on one UV set alone and contain an operation.
+fn candidates(network: &Network) -> Vec<NodeId> {
+    let graph = &network.graph;
+    let dependencies = dependencies(graph);
+    let live = network.live();
+    let is_uv = |id: NodeId| matches!(dependencies[id.index()], Dependency::Uv(_));
+    let mut highest = vec![false; graph.nodes().len()];
+    let mut mark = |id: NodeId| {
+        if is_uv(id) {
+            highest[whole(graph, id).index()] = true;
+        }
+    };
+    network.outputs().for_each(&mut mark);
+    for id in graph.ids().filter(|&id| live[id.index()] && !is_uv(id)) {
+        graph.node(id).inputs.iter().copied().for_each(&mut mark);
+    }
+    let computes = contains_operation(graph);
+    graph
+        .ids()
+        .filter(|id| highest[id.index()] && computes[id.index()])
+        .collect()
+}
+
+/// What a component is taken from, where that fits into one cache value: one look-up
+/// then serves all components.
+fn whole(graph: &Graph, id: NodeId) -> NodeId {
+    match graph.node(id).kind {
+        NodeKind::Extract(_) => {
+            let from = graph.node(id).inputs[0];
+            if graph.ty(from) == Ty::F4 {
+                id
+            } else {
+                whole(graph, from)
+            }
+        }
+        _ => id,
+    }
+}
+
+fn contains_operation(graph: &Graph) -> Vec<bool> {
+    let mut contains = Vec::with_capacity(graph.nodes().len());
+    for node in graph.nodes() {
+        let below = node.inputs.iter().any(|i: &NodeId| contains[i.index()]);
+        contains.push(below || crate::opt::is_operation(&node.kind));
+    }
+    contains
+}
+
+struct Choice<'a> {
+    network: &'a Network,
+    model: &'a CostModel,
+    chosen: Vec<NodeId>,
+}
+
+impl Choice<'_> {
+    /// Drops nodes that save less than their look-up costs: first one by one, the worst
+    /// first, for a dropped node's values are then there for the others too; then in
+    /// clusters that share values, where each look-up alone seems to pay because the
+    /// others keep what is shared from being computed.
+    fn drop_what_does_not_pay(&mut self) {
+        if self.model.lookup_ns <= 0.0 {
+            return;
+        }
+        loop {
+            while let Some(worst) = self.worst_single() {
+                self.chosen.remove(worst);
+            }
+            match self.worst_cluster() {
+                Some(cluster) => self.chosen.retain(|id| !cluster.contains(id)),
+                None => return,
+            }
+        }
+    }
+
+    fn worst_single(&self) -> Option<usize> {
+        let computed = self.computed_without_cache();
+        let saving = |&id: &NodeId| self.cost_beyond(&computed, &[id]);
+        let (at, least) = self
+            .chosen
+            .iter()
+            .map(saving)
+            .enumerate()
+            .min_by(|a, b| a.1.total_cmp(&b.1))?;
+        (least <= self.model.lookup_ns).then_some(at)
+    }
+
+    fn worst_cluster(&self) -> Option<Vec<NodeId>> {
+        let computed = self.computed_without_cache();
+        self.clusters().into_iter().find(|cluster| {
+            let saving = self.cost_beyond(&computed, cluster);
+            cluster.len() > 1 && saving <= self.model.lookup_ns * cluster.len() as f32
+        })
+    }
+
+    /// Chosen nodes grouped by shared operations.
+    fn clusters(&self) -> Vec<Vec<NodeId>> {
+        let graph = &self.network.graph;
+        let mut clusters: Vec<(Vec<bool>, Vec<NodeId>)> = Vec::new();
+        for &id in &self.chosen {
+            let mut reach = vec![false; graph.nodes().len()];
+            reach_from(graph, &[id], &mut reach);
+            let costs = |i: usize| own_cost(graph, NodeId(i as u32), self.model) > 0.0;
+            let mut members = vec![id];
+            clusters.retain_mut(|(other, others)| {
+                let touches = (0..reach.len()).any(|i| reach[i] && other[i] && costs(i));
+                if touches {
+                    members.append(others);
+                    reach.iter_mut().zip(&*other).for_each(|(r, o)| *r |= o);
+                }
+                !touches
+            });
+            clusters.push((reach, members));
+        }
+        clusters.into_iter().map(|(_, members)| members).collect()
+    }
+
+    /// Nodes that are computed for every hit, given what is cached.
+    fn computed_without_cache(&self) -> Vec<bool> {
+        let mut stop = vec![false; self.network.graph.nodes().len()];
+        for id in &self.chosen {
+            stop[id.index()] = true;
+        }
+        let mut computed = stop.clone();
+        let outputs: Vec<NodeId> = self.network.outputs().collect();
+        reach_from(&self.network.graph, &outputs, &mut computed);
+        computed.iter().zip(stop).map(|(&c, s)| c && !s).collect()
+    }
+
+    /// Cost of what these nodes need beyond what is computed already.
+    fn cost_beyond(&self, computed: &[bool], nodes: &[NodeId]) -> f32 {
+        let graph = &self.network.graph;
+        let mut reach = computed.to_vec();
+        reach_from(graph, nodes, &mut reach);
+        graph
+            .ids()
+            .filter(|id| reach[id.index()] && !computed[id.index()])
+            .map(|id| own_cost(graph, id, self.model))
+            .sum()
+    }
+}
+
+/// Marks everything that `from` needs, not going on below what is marked already.
+fn reach_from(graph: &Graph, from: &[NodeId], marked: &mut [bool]) {
+    let mut stack: Vec<NodeId> = from.to_vec();
+    while let Some(id) = stack.pop() {
+        if !std::mem::replace(&mut marked[id.index()], true) {
+            stack.extend(&graph.node(id).inputs);
+        }
+    }
+}
+
+/// How a cached value is packed: what its author says, else what its operation says,
+/// else what holds anything of its type.
+pub fn encoding(graph: &Graph, id: NodeId) -> Encoding {
+    let node = graph.node(id);
+    let fits = |e: &Encoding| match e {
+        Encoding::Color | Encoding::Normal => node.ty == Ty::F3,
+        Encoding::Scalar => node.ty == Ty::F1,
+        Encoding::Gradient => node.ty == Ty::F2,
+        Encoding::Vector => matches!(node.ty, Ty::F2 | Ty::F3),
+    };
+    let derived = match node.kind {
+        NodeKind::Apply(op, _) => op.info().encoding,
+        NodeKind::Table(table) => {
+            let rows = &graph.tables()[table.0 as usize].rows;
+            let is_color = rows.iter().flatten().all(|&x| x >= 0.0);
+            is_color.then_some(Encoding::Color)
+        }
+        // An image's colour; it is the only value of four components of its own.
+        NodeKind::Extract(0) if graph.ty(node.inputs[0]) == Ty::F4 => Some(Encoding::Color),
+        _ => None,
+    };
+    let general = if node.ty == Ty::F1 {
+        Encoding::Scalar
+    } else {
+        Encoding::Vector
+    };
+    node.encoding
+        .filter(fits)
+        .or(derived.filter(fits))
+        .unwrap_or(general)
+}

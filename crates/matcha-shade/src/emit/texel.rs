@@ -1,0 +1,64 @@
+//! A region's sub-graph at its virtual texel: the texel's centre takes the place of
+//! the hit's coordinate, its edges that of the footprint's axes.
+
+use crate::graph::{Graph, NodeId, NodeKind};
+use crate::input::{Input, InputKind, Part};
+use crate::opt::{self, Network, WeightedClosure};
+
+/// Registers that a `lookup` word fills: u, v, size.
+pub(super) const REGISTERS: usize = 3;
+
+/// The register of an input of [`at_centre`]'s graph.
+pub(super) fn register(input: Input, texel: u16) -> u16 {
+    match input.part {
+        Part::Value => texel,
+        // Only its first component is read.
+        Part::AxisA => texel + 2,
+        Part::AxisB => unreachable!("replaced by the first axis"),
+    }
+}
+
+/// A graph with the sub-graph of `root` alone, optimised, and its value there. Axis A
+/// is (size, 0) and axis B (0, size); the size is the first component of axis A.
+pub(super) fn at_centre(graph: &Graph, root: NodeId, set: u16) -> (Graph, NodeId) {
+    let network = Network {
+        graph: graph.clone(),
+        closures: vec![output(root)],
+    };
+    let inner = opt::rewrite(&network, |graph, node| match node.kind {
+        NodeKind::Input(Input {
+            kind: InputKind::Uv(s),
+            part: Part::AxisA,
+        }) if s == set => {
+            let size = size(graph, set);
+            let zero = graph.f1(0.0);
+            graph.combine(&[size, zero])
+        }
+        NodeKind::Input(Input {
+            kind: InputKind::Uv(s),
+            part: Part::AxisB,
+        }) if s == set => {
+            let size = size(graph, set);
+            let zero = graph.f1(0.0);
+            graph.combine(&[zero, size])
+        }
+        _ => graph.push_node(node),
+    });
+    let inner = opt::settle(inner, 4);
+    let value = inner.closures[0].params[0];
+    (inner.graph, value)
+}
+
+fn size(graph: &mut Graph, set: u16) -> NodeId {
+    let axis = graph.input(InputKind::Uv(set), Part::AxisA);
+    graph.component(axis, 0)
+}
+
+/// The value as a parameter, so that the passes keep it. The closure is only a carrier.
+fn output(root: NodeId) -> WeightedClosure {
+    WeightedClosure {
+        kind: crate::closure::ClosureKind::Holdout,
+        weight: root,
+        params: vec![root],
+    }
+}
