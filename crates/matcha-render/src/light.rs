@@ -14,6 +14,7 @@ mod analytic;
 mod escape;
 mod tree;
 mod tree_build;
+mod tree_collapse;
 mod triangles;
 mod visible;
 mod world;
@@ -223,7 +224,7 @@ impl LightSet {
         let tree = if self.tree.is_empty() {
             0.0
         } else {
-            self.tree.importance(0, p, n)
+            self.tree.importance(p, n)
         };
         self.distant.shares(tree, n)
     }

@@ -5,7 +5,7 @@
 //! around which it shines up to θe. Angles appear as cosines only.
 
 use glam::Vec3;
-use matcha_shade::device::math::{abs, abs3, dot, max, select, sqrt};
+use matcha_shade::device::math::{abs, abs3, dot, max, min, select, sqrt};
 
 /// Bounds of a cluster of lights.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +33,7 @@ pub fn light_sine(cosine: f32) -> f32 {
 }
 
 /// cos(max(a − b, 0)) from the cosines of two angles from 0 to π.
-#[inline(always)]
+#[inline]
 pub fn light_cos_reduced(cos_a: f32, cos_b: f32) -> f32 {
     let reduced = cos_a * cos_b + light_sine(cos_a) * light_sine(cos_b);
     select(reduced, 1.0, cos_a >= cos_b)
@@ -41,31 +41,44 @@ pub fn light_cos_reduced(cos_a: f32, cos_b: f32) -> f32 {
 
 /// Estimate of the irradiance that a cluster brings to the point `p` with unit normal `n`
 /// (zero where light from both sides counts). Zero only where it brings none.
-#[inline]
+///
+/// Angles are subtracted by cosine and sine pairs; conditions are joined without short
+/// circuits, so that a loop over clusters becomes vector code.
+#[inline(always)]
 pub fn light_importance(bounds: LightBounds, p: Vec3, n: Vec3) -> f32 {
     let to = (bounds.low + bounds.high) * 0.5 - p;
     let half = (bounds.high - bounds.low) * 0.5;
-    let radius_squared = dot(half, half);
-    let d2 = dot(to, to);
-    let around = d2 <= radius_squared;
+    let r2 = dot(half, half);
+    let d2 = max(dot(to, to), 1e-30);
+    let around = d2 <= r2;
+    let inverse = 1.0 / sqrt(d2);
     // Half angle under which the bounding sphere is seen.
-    let far = max(d2, 1e-30);
-    let cos_bound = select(sqrt(max(1.0 - radius_squared / far, 0.0)), -1.0, around);
-    let direction = to * (1.0 / sqrt(far));
-    let facing = -dot(bounds.axis, direction);
+    let sin_bound = min(sqrt(r2) * inverse, 1.0);
+    let cos_bound = sqrt(1.0 - sin_bound * sin_bound);
+    // Smallest angle between the axis and a direction from the sphere to the point …
+    let facing = -dot(bounds.axis, to) * inverse;
     let cos_axis = select(facing, abs(facing), bounds.two_sided);
-    let cos_outside = light_cos_reduced(cos_axis, cos_bound);
-    let cos_out = light_cos_reduced(cos_outside, bounds.cos_normals);
-    let shines = around || cos_out > bounds.cos_emission;
-    // Inside of the box every direction is possible.
-    let out = select(max(cos_out, 0.0), 1.0, around);
+    let sin_axis = light_sine(cos_axis);
+    let towards = cos_axis >= cos_bound;
+    let cos_turn = select(cos_axis * cos_bound + sin_axis * sin_bound, 1.0, towards);
+    let sin_turn = select(sin_axis * cos_bound - cos_axis * sin_bound, 0.0, towards);
+    // … and between a normal and it.
+    let sin_normals = light_sine(bounds.cos_normals);
+    let turned = cos_turn * bounds.cos_normals + sin_turn * sin_normals;
+    let cos_out = select(turned, 1.0, cos_turn >= bounds.cos_normals);
+    let shines = around | (cos_out > bounds.cos_emission);
+    // Smallest angle of incidence.
     let opaque = dot(n, n) > 0.0;
-    let cos_in = light_cos_reduced(dot(n, direction), cos_bound);
+    let cos_middle = dot(n, to) * inverse;
+    let above = cos_middle * cos_bound + light_sine(cos_middle) * sin_bound;
+    let cos_in = select(above, 1.0, cos_middle >= cos_bound);
     let reach = dot(abs3(n), half) + dot(n, to);
-    let in_sight = !opaque || (reach > 0.0 && (around || cos_in > 0.0));
-    let incidence = select(1.0, select(cos_in, 1.0, around), opaque);
-    let value = bounds.power * out * incidence / max(max(d2, radius_squared), 1e-12);
-    select(0.0, value, shines && in_sight)
+    let in_sight = !opaque | ((reach > 0.0) & (around | (cos_in > 0.0)));
+    // Inside of the sphere every direction is possible.
+    let out = select(max(cos_out, 0.0), 1.0, around);
+    let incidence = select(cos_in, 1.0, around | !opaque);
+    let value = bounds.power * out * incidence / max(max(d2, r2), 1e-12);
+    select(0.0, value, shines & in_sight)
 }
 
 /// Irradiance on a surface with unit normal `n` from nine coefficients of the surrounding

@@ -1,13 +1,12 @@
 //! Builds the light tree: top-down by the surface area orientation heuristic over bins
 //! (Conty Estevez and Kulla 2018, §4.4), in parallel; exact bounds bottom-up.
 
-use super::tree::{LightNode, Link};
 use crate::device::light_importance::LightBounds;
 use glam::Vec3;
 
 /// Bins per axis.
 const BINS: usize = 12;
-/// Below this depth halves are equal, which bounds the depth to less than 64.
+/// Below this depth halves are equal, which bounds the depth of the recursion.
 const DEEP: u32 = 36;
 /// Smaller jobs stay on their thread.
 const PARALLEL: usize = 4096;
@@ -23,11 +22,29 @@ impl Item {
     }
 }
 
-/// Nodes (root first) and the trail of every emitter.
-pub fn build(bounds: &[LightBounds]) -> (Vec<LightNode>, Vec<u64>) {
-    if bounds.is_empty() {
-        return Default::default();
-    }
+/// A node of the binary tree.
+#[derive(Clone, Copy, Debug)]
+pub struct BinaryNode {
+    /// Bounds of all that is below.
+    pub bounds: LightBounds,
+    /// What is below.
+    pub link: BinaryLink,
+}
+
+/// What a node of the binary tree leads to.
+#[derive(Clone, Copy, Debug)]
+pub enum BinaryLink {
+    /// One emitter.
+    Emitter(u32),
+    /// Index of the first of two children side by side.
+    Children(u32),
+}
+
+/// Nodes of the binary tree, root first.
+pub fn build(bounds: &[LightBounds]) -> Vec<BinaryNode> {
+    let Some(&some) = bounds.first() else {
+        return Vec::new();
+    };
     let mut items: Vec<Item> = bounds
         .iter()
         .zip(0..)
@@ -36,40 +53,38 @@ pub fn build(bounds: &[LightBounds]) -> (Vec<LightNode>, Vec<u64>) {
             emitter,
         })
         .collect();
-    let mut nodes = vec![LightNode::default(); 2 * items.len() - 1];
-    let mut trails = vec![0; items.len()];
+    let blank = BinaryNode {
+        bounds: some,
+        link: BinaryLink::Emitter(0),
+    };
+    let mut nodes = vec![blank; 2 * items.len() - 1];
     let (root, rest) = nodes.split_first_mut().expect("there is one node at least");
     build_node(Job {
         node: root,
         rest,
         first: 1,
         items: &mut items,
-        trails: &mut trails,
         depth: 0,
-        trail: 0,
     });
-    let mut of_emitter = vec![0; items.len()];
-    for (item, trail) in items.iter().zip(trails) {
-        of_emitter[item.emitter as usize] = trail;
-    }
-    (nodes, of_emitter)
+    nodes
 }
 
 /// A sub-tree to build: its root, room for its other nodes, and where that room starts.
 struct Job<'a> {
-    node: &'a mut LightNode,
-    rest: &'a mut [LightNode],
+    node: &'a mut BinaryNode,
+    rest: &'a mut [BinaryNode],
     first: u32,
     items: &'a mut [Item],
-    trails: &'a mut [u64],
     depth: u32,
-    trail: u64,
 }
 
 fn build_node(job: Job<'_>) -> LightBounds {
     if let [item] = job.items {
-        *job.node = LightNode::new(&item.bounds, Link::Emitter(item.emitter));
-        job.trails[0] = job.trail;
+        let link = BinaryLink::Emitter(item.emitter);
+        *job.node = BinaryNode {
+            bounds: item.bounds,
+            link,
+        };
         return item.bounds;
     }
     let middle = if job.depth < DEEP {
@@ -79,7 +94,6 @@ fn build_node(job: Job<'_>) -> LightBounds {
     };
     let parallel = job.items.len() > PARALLEL;
     let (left_items, right_items) = job.items.split_at_mut(middle);
-    let (left_trails, right_trails) = job.trails.split_at_mut(middle);
     let (children, rest) = job.rest.split_at_mut(2);
     let (left_rest, right_rest) = rest.split_at_mut(2 * middle - 2);
     let (left_node, right_node) = children.split_at_mut(1);
@@ -88,18 +102,14 @@ fn build_node(job: Job<'_>) -> LightBounds {
         rest: left_rest,
         first: job.first + 2,
         items: left_items,
-        trails: left_trails,
         depth: job.depth + 1,
-        trail: job.trail,
     };
     let right = Job {
         node: &mut right_node[0],
         rest: right_rest,
         first: job.first + 2 * middle as u32,
         items: right_items,
-        trails: right_trails,
         depth: job.depth + 1,
-        trail: job.trail | 1 << job.depth,
     };
     let (a, b) = if parallel {
         rayon::join(|| build_node(left), || build_node(right))
@@ -107,7 +117,10 @@ fn build_node(job: Job<'_>) -> LightBounds {
         (build_node(left), build_node(right))
     };
     let bounds = unite(&a, &b);
-    *job.node = LightNode::new(&bounds, Link::Children(job.first));
+    *job.node = BinaryNode {
+        bounds,
+        link: BinaryLink::Children(job.first),
+    };
     bounds
 }
 
