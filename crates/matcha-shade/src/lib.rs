@@ -7,6 +7,7 @@ mod emit;
 pub mod graph;
 pub mod input;
 pub mod material;
+pub mod nodes;
 pub mod ops;
 pub mod opt;
 pub mod program;
@@ -14,3 +15,5 @@ pub mod rows;
 mod shifted;
 pub mod source;
 pub mod vm;
+
+pub use nodes::LowerError;

@@ -198,14 +198,14 @@ pub fn magic_fold(angle: f32, distortion: f32, is_sine: bool, sign: f32) -> f32 
 
 /// Cycles, node Magic Texture; `depth` 0 to 10 turns.
 #[inline(always)]
-pub fn magic_color(p: Vec3, distortion: f32, depth: u32) -> Vec3 {
+pub fn magic_color(p: Vec3, scale: f32, distortion: f32, depth: u32) -> Vec3 {
     let px = modulo(p.x, TAU);
     let py = modulo(p.y, TAU);
     let pz = modulo(p.z, TAU);
     let any = select(1.0, distortion, depth > 0);
-    let x = sin((px + py + pz) * 5.0) * any;
-    let y = cos((py - px - pz) * 5.0) * any;
-    let z = -cos((pz - px - py) * 5.0) * any;
+    let x = sin((px + py + pz) * 5.0 * scale) * any;
+    let y = cos((py - px - pz) * 5.0 * scale) * any;
+    let z = -cos((pz - px - py) * 5.0 * scale) * any;
     let y = select(y, magic_fold(x - y + z, distortion, false, -1.0), depth > 0);
     let x = select(x, magic_fold(x - y - z, distortion, false, 1.0), depth > 1);
     let z = select(z, magic_fold(-x - y - z, distortion, true, 1.0), depth > 2);
@@ -216,10 +216,6 @@ pub fn magic_color(p: Vec3, distortion: f32, depth: u32) -> Vec3 {
     let z = select(z, magic_fold(x + y - z, distortion, true, 1.0), depth > 7);
     let x = select(x, magic_fold(z - x - y, distortion, false, -1.0), depth > 8);
     let y = select(y, magic_fold(x - y + z, distortion, true, -1.0), depth > 9);
-    let scale = select(
-        1.0,
-        1.0 / (2.0 * select(1.0, distortion, distortion != 0.0)),
-        distortion != 0.0,
-    );
-    vec3(0.5 - x * scale, 0.5 - y * scale, 0.5 - z * scale)
+    let shrink = select(1.0, 0.5 * safe_divide(1.0, distortion), distortion != 0.0);
+    vec3(0.5 - x * shrink, 0.5 - y * shrink, 0.5 - z * shrink)
 }

@@ -161,7 +161,7 @@ pub fn voronoi_smooth_cell(
     let to_point = voronoi_to_point(i, 2, corner, inside, randomness, dims);
     let width = voronoi_smooth_width(smoothness);
     let distance = voronoi_length(to_point, exponent, metric, dims);
-    let h = voronoi_smooth_blend(s[0], distance, width, i == 0);
+    let h = voronoi_smooth_blend(s[0], distance, max(width, 1.0e-6), i == 0);
     let correction = width * h * (1.0 - h);
     let small = correction / (1.0 + 3.0 * width);
     let color = voronoi_cell_color(quad_add(corner, voronoi_offset(i, 2, dims)), dims);

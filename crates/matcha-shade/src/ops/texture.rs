@@ -54,7 +54,7 @@ operations! {
     }
 
     /// Cycles, Magic Texture.
-    magic_color(p: F3, distortion: F1, depth: U32) -> Color {
+    magic_color(p: F3, scale: F1, distortion: F1, depth: U32) -> Color {
         cost: 20.0, error: 1e-2,
         eval: pattern::magic_color,
     }
