@@ -284,6 +284,144 @@ def measure_sheen(path):
         out.write(struct.pack(f"<{len(flat)}f", *flat))
 
 
+# ------------------------------------------------------------ references
+
+COSINES = (0.95, 0.6, 0.25)
+SUNS = [(55, 180), (80, 90), (30, 150), (20, 60), (60, 0), (-70, 180), (-40, 150), (-30, 0)]
+COLOR = (0.9, 0.5, 0.2, 1.0)
+
+
+def glossy_cases():
+    for name in ("GGX", "MULTI_GGX", "BECKMANN", "ASHIKHMIN_SHIRLEY"):
+        for roughness in (0.3, 0.8):
+            yield "Glossy", name, {"Color": COLOR, "Roughness": roughness}
+        yield (
+            "Glossy",
+            name,
+            {"Color": COLOR, "Roughness": 0.5, "Anisotropy": 0.6, "Rotation": 0.1},
+        )
+    yield "Glossy", "GGX", {"Color": COLOR, "Roughness": 0.5, "Anisotropy": -0.5}
+
+
+def transmissive_cases():
+    for name in ("GGX", "MULTI_GGX", "BECKMANN"):
+        for roughness, ior in ((0.3, 1.45), (0.6, 1.8), (0.4, 0.7)):
+            yield "Glass", name, {"Color": COLOR, "Roughness": roughness, "IOR": ior}
+    for name in ("GGX", "BECKMANN"):
+        yield "Refraction", name, {"Color": COLOR, "Roughness": 0.35, "IOR": 1.33}
+
+
+def principled_cases():
+    base = {"Base Color": COLOR}
+    for more in (
+        {},
+        {"Roughness": 0.2, "Specular IOR Level": 1.0},
+        {"Roughness": 0.7, "IOR": 1.2, "Specular Tint": (0.9, 0.3, 0.6, 1.0)},
+        {"Diffuse Roughness": 0.9},
+        {"Metallic": 1.0, "Roughness": 0.4, "Specular Tint": (0.8, 0.9, 1.0, 1.0)},
+        {"Metallic": 0.6, "Roughness": 0.5, "Anisotropic": 0.8, "Anisotropic Rotation": 0.2},
+        {"Coat Weight": 1.0, "Coat Roughness": 0.2},
+        {
+            "Coat Weight": 0.6,
+            "Coat Roughness": 0.5,
+            "Coat IOR": 1.8,
+            "Coat Tint": (0.9, 0.6, 0.3, 1.0),
+        },
+        {"Sheen Weight": 0.5, "Sheen Roughness": 0.3},
+        {"Sheen Weight": 1.0, "Sheen Roughness": 0.8, "Sheen Tint": (0.2, 0.9, 0.5, 1.0)},
+        {"Transmission Weight": 1.0, "Roughness": 0.4},
+        {"Transmission Weight": 0.5, "Roughness": 0.6, "Metallic": 0.2, "Coat Weight": 0.3},
+        {"Alpha": 0.6},
+        {"Sheen Weight": 0.4, "Coat Weight": 0.5, "Coat Roughness": 0.3, "Emission Strength": 0.5},
+    ):
+        yield "Principled", "MULTI_GGX", base | more
+    yield "Principled", "GGX", base | {"Metallic": 0.5, "Roughness": 0.7}
+
+
+def cases():
+    for roughness in (0.0, 0.5, 1.0):
+        yield "Diffuse", None, {"Color": COLOR, "Roughness": roughness}
+    yield "Translucent", None, {"Color": COLOR}
+    yield from glossy_cases()
+    yield from transmissive_cases()
+    for roughness in (0.1, 0.4, 1.0):
+        yield "Sheen", "MICROFIBER", {"Color": COLOR, "Roughness": roughness}
+        yield "Sheen", "ASHIKHMIN", {"Color": COLOR, "Roughness": roughness}
+    yield from principled_cases()
+
+
+NODES = {
+    "Diffuse": "ShaderNodeBsdfDiffuse",
+    "Translucent": "ShaderNodeBsdfTranslucent",
+    "Glossy": "ShaderNodeBsdfAnisotropic",
+    "Glass": "ShaderNodeBsdfGlass",
+    "Refraction": "ShaderNodeBsdfRefraction",
+    "Sheen": "ShaderNodeBsdfSheen",
+    "Principled": "ShaderNodeBsdfPrincipled",
+}
+
+
+def direction(elevation, azimuth):
+    e, p = math.radians(elevation), math.radians(azimuth)
+    return [math.cos(e) * math.cos(p), math.cos(e) * math.sin(p), math.sin(e)]
+
+
+def reference_scene(every, samples):
+    scene = new_scene(len(COSINES), len(every), samples)
+    for row, (kind, distribution, values) in enumerate(every):
+        properties = {"distribution": distribution} if distribution else {}
+        material, _ = bsdf_material(f"{row}", NODES[kind], values, properties)
+        for column, cosine in enumerate(COSINES):
+            mesh = bpy.data.meshes.new("square")
+            mesh.from_pydata(square(column, row, cosine), [], [(0, 1, 2, 3)])
+            mesh.materials.append(material)
+            thing = bpy.data.objects.new("square", mesh)
+            only_camera_sees(thing)
+            scene.collection.objects.link(thing)
+    return scene
+
+
+def rounded(color):
+    return [float(f"{c:.6g}") for c in color]
+
+
+def measure_references(path):
+    every = list(cases())
+    scene = reference_scene(every, 4096)
+    white_world(scene, 1.0)
+    albedo = picture(scene, len(COSINES), len(every))
+    scene.cycles.samples = 1
+    white_world(scene, 0.0)
+    dark = picture(scene, len(COSINES), len(every))
+    lamp = sun(scene)
+    lit = []
+    for angles in SUNS:
+        aim(lamp, direction(*angles))
+        lit.append(picture(scene, len(COSINES), len(every)))
+    out = []
+    for row, (kind, distribution, values) in enumerate(every):
+        for column, cosine in enumerate(COSINES):
+            out.append(
+                {
+                    "kind": kind,
+                    "distribution": distribution,
+                    "inputs": {k: list(v) if hasattr(v, "__len__") else v for k, v in values.items()},
+                    "cosine": cosine,
+                    "albedo": rounded(albedo[row][column]),
+                    "emission": rounded(dark[row][column]),
+                    "lit": [rounded(picture[row][column]) for picture in lit],
+                }
+            )
+    head = {"blender": bpy.app.version_string, "suns": [rounded(direction(*s)) for s in SUNS]}
+    with open(path, "w") as file:
+        file.write(json.dumps(head)[:-1] + ', "squares": [\n')
+        file.write(",\n".join(json.dumps(o) for o in out) + "\n]}\n")
+
+
 if __name__ == "__main__":
     if sys.argv[1] == "sheen":
         measure_sheen(sys.argv[2])
+    elif sys.argv[1] == "reference":
+        measure_references(sys.argv[2])
+    else:
+        sys.exit(__doc__)

@@ -12,6 +12,15 @@ mod principled;
 mod set;
 pub mod tables;
 
+#[cfg(test)]
+mod chi_squared;
+#[cfg(test)]
+mod fixtures;
+#[cfg(test)]
+mod reference;
+#[cfg(test)]
+mod tests;
+
 pub use crate::device::lobe::ClosureFrame as Frame;
 pub use prepare::{ClosureContext, prepare_closure};
 pub use set::{Evaluated, LobeSet, Scattered, flags};

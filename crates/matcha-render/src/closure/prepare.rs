@@ -42,7 +42,7 @@ impl Default for ClosureContext {
     }
 }
 
-/// Reads parameters in the order of `closure.rs`.
+/// Reads parameters in the order of `closure.rs`. What is not finite reads 0.
 pub(super) struct Reader<'a> {
     rows: &'a [f32],
 }
@@ -51,13 +51,11 @@ impl Reader<'_> {
     pub(super) fn f1(&mut self) -> f32 {
         let value = self.rows[0];
         self.rows = &self.rows[1..];
-        value
+        if value.is_finite() { value } else { 0.0 }
     }
 
     pub(super) fn f3(&mut self) -> Vec3 {
-        let value = Vec3::new(self.rows[0], self.rows[1], self.rows[2]);
-        self.rows = &self.rows[3..];
-        value
+        Vec3::new(self.f1(), self.f1(), self.f1())
     }
 }
 
@@ -71,8 +69,8 @@ pub(super) struct Workbench<'a> {
 /// Adds the lobes of one closure to `set`, which must have been begun with the same frame.
 ///
 /// `rows` are the closure's weight and parameters as `matcha_shade::closure` lays them out
-/// ([`ClosureKind::rows`] numbers); fewer make no lobe. A colour that is not a number makes
-/// none either, a broken normal becomes the shading normal.
+/// ([`ClosureKind::rows`] numbers); fewer make no lobe. Numbers that are not finite
+/// count as 0, and a normal of length 0 becomes the shading normal.
 pub fn prepare_closure(
     kind: ClosureKind,
     rows: &[f32],
@@ -92,15 +90,11 @@ pub fn prepare_closure(
     };
     match kind {
         ClosureKind::Emission | ClosureKind::Background => {
-            if weight.is_finite() {
-                bench.set.emission += weight;
-            }
+            bench.set.emission += weight;
         }
         ClosureKind::Transparent => bench.set.add_transparency(weight),
         ClosureKind::Holdout => {
-            if weight.is_finite() {
-                bench.set.holdout += weight;
-            }
+            bench.set.holdout += weight;
         }
         ClosureKind::Principled(d) => prepare_principled(&mut bench, weight, d, &mut read),
         _ if !context.scatter => {}

@@ -61,6 +61,22 @@ impl Tables {
         ]
     }
 
+    /// Largest difference between entries of two sets of tables.
+    pub fn largest_difference(&self, other: &Self) -> f32 {
+        let values = |t: &Self| {
+            t.parts()
+                .into_iter()
+                .flatten()
+                .copied()
+                .collect::<Vec<f32>>()
+        };
+        values(self)
+            .iter()
+            .zip(values(other))
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f32::max)
+    }
+
     /// As bytes: little-endian 16-bit fractions of 1.
     pub fn to_bytes(&self) -> Vec<u8> {
         let quantise = |v: &f32| ((v.clamp(0.0, 1.0) * SCALE + 0.5) as u16).to_le_bytes();
