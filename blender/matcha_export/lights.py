@@ -6,6 +6,7 @@ import numpy as np
 
 from . import axes, visibility
 from .numbers import number, numbers
+from .trees import tree_in_use
 
 PUNCTUAL = "KHR_lights_punctual"
 # Lumens of a watt at 555 nm, as glTF exporters agree on; glTF counts candela and lux.
@@ -60,7 +61,7 @@ class Lights:
         if getattr(cycles, "is_portal", False):
             entry["portal"] = True
             self.report.warning(f"light {obj.name}: portals are left out")
-        if light.use_nodes and light.node_tree is not None:
+        if tree_in_use(light) is not None:
             entry["tree"] = self._tree(light)
         return entry
 

@@ -2,7 +2,7 @@
 
 from . import fallback
 from .numbers import number
-from .trees import Needs
+from .trees import Needs, tree_in_use
 
 
 class Materials:
@@ -36,21 +36,25 @@ class Materials:
         return total
 
     def _store(self, material):
-        if material.displacement_method != "BUMP":
+        # Blender 4.1 moved this out of Cycles' settings.
+        owner = material if hasattr(material, "displacement_method") else material.cycles
+        displacement = owner.displacement_method
+        if displacement != "BUMP":
             self.report.warning(f"{material.name}: displacement is rendered as bump")
         about = {
             "pass_index": int(material.pass_index),
             "emission_sampling": material.cycles.emission_sampling,
-            "displacement_method": material.displacement_method,
+            "displacement_method": displacement,
             "use_backface_culling": bool(material.use_backface_culling),
             "use_transparent_shadow": bool(getattr(material, "use_transparent_shadow", True)),
             "use_bump_map_correction": bool(
                 getattr(material, "use_bump_map_correction", True)
             ),
         }
-        if not material.use_nodes or material.node_tree is None:
+        node_tree = tree_in_use(material)
+        if node_tree is None:
             return self._store_plain(material.name, material.diffuse_color, about)
-        tree = self.trees.add(material.node_tree, material.name)
+        tree = self.trees.add(node_tree, material.name)
         looks = fallback.material(material, self.images, self.glb)
         return self._append(material.name, looks, {"tree": tree, **about}, self.trees.needs[tree])
 

@@ -17,20 +17,19 @@ class Meshes:
         self._known = {}
         self._by_content = {}
 
-    def add(self, key, name, mesh, slots):
+    def add(self, mesh, slots):
         """Index of a glTF mesh, or None where there is nothing to see.
 
-        `key` identifies the evaluated data, `slots` are the material indices of the mesh's own
-        slots. `mesh` is a function, called only for data that was not met before.
+        `slots` are the material indices of the mesh's own slots.
         """
-        key = (key, slots)
+        key = (mesh.as_pointer(), slots)
         if key not in self._known:
-            self._known[key] = self._store(name, mesh(), slots)
+            self._known[key] = self._store(mesh, slots)
         return self._known[key]
 
-    def _store(self, name, mesh, slots):
+    def _store(self, mesh, slots):
         def warn(text):
-            self.report.warning(f"mesh {name}: {text}")
+            self.report.warning(f"mesh {mesh.name}: {text}")
 
         needs = self.materials.needs(slots)
         parts = geometry.extract(mesh, len(slots), needs, warn)
@@ -54,7 +53,7 @@ class Meshes:
             }
             for slot, indices in parts.triangles
         ]
-        return self._unique({"name": name, "primitives": primitives, "extensions": {"MATCHA_cycles": about}})
+        return self._unique({"name": mesh.name, "primitives": primitives, "extensions": {"MATCHA_cycles": about}})
 
     def _unique(self, entry):
         # Equal arrays share an accessor, so equal entries are equal meshes, whatever their names.

@@ -5,7 +5,6 @@ import numpy as np
 from . import axes, lights, visibility
 from .instancing import Placement
 
-GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 UNSUPPORTED = {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL", "GPENCIL"}
 
 
@@ -28,10 +27,13 @@ class Objects:
         for number, instance in enumerate(depsgraph.object_instances):
             self.report.progress(0.05 + 0.85 * number / total, "meshes")
             kind = instance.object.type
-            if kind == "LIGHT":
+            if not np.isfinite(np.array(instance.matrix_world)).all():
+                self.report.warning(f"object {instance.object.name}: its place is not finite; it is left out")
+            elif kind == "LIGHT":
                 self.light_nodes.append(self.lights.node(instance))
-            elif kind in GEOMETRY and instance.show_self:
-                self._place(instance, depsgraph)
+            elif kind == "MESH" and instance.show_self:
+                # Curves, surfaces, texts and metaballs come by a second time, as meshes.
+                self._place(instance)
             elif kind in UNSUPPORTED:
                 self.report.warning(f"object {instance.object.name}: {kind.lower()} objects are left out")
             self._hair(instance)
@@ -45,7 +47,7 @@ class Objects:
             if system and system.settings.type == "HAIR" and system.settings.render_type == "PATH":
                 self.report.warning(f"object {obj.name}: hair strands are left out")
 
-    def _place(self, instance, depsgraph):
+    def _place(self, instance):
         obj = instance.object
         entry = visibility.about(instance, self.view_layer)
         if not any(entry["visibility"].values()):
@@ -53,8 +55,8 @@ class Objects:
         worn = tuple(self.materials.add(slot.material) for slot in obj.material_slots)
         own = self._own_slots(obj) or worn
         # An object may have fewer or other slots than its data.
-        slots = (own or worn) or (self.materials.add(None),)
-        mesh = self._mesh(obj, slots, depsgraph)
+        slots = own or (self.materials.add(None),)
+        mesh = self.meshes.add(obj.data, slots)
         if mesh is None:
             return
         if worn and worn != slots:
@@ -65,19 +67,3 @@ class Objects:
     def _own_slots(self, obj):
         slots = getattr(obj.data, "materials", None)
         return tuple(self.materials.add(material) for material in slots) if slots else ()
-
-    def _mesh(self, obj, slots, depsgraph):
-        data = obj.data
-        if obj.type == "MESH":
-            return self.meshes.add(data.as_pointer(), data.name, lambda: data, slots)
-        # Curves, texts, surfaces and metaballs: modifiers belong to the object.
-        try:
-            mesh = obj.to_mesh(preserve_all_data_layers=True, depsgraph=depsgraph)
-        except RuntimeError:
-            return None
-        if mesh is None:
-            return None
-        try:
-            return self.meshes.add((obj.original.as_pointer(), "converted"), obj.name, lambda: mesh, slots)
-        finally:
-            obj.to_mesh_clear()

@@ -1,6 +1,7 @@
 """Render settings and the world."""
 
 from .numbers import number, numbers
+from .trees import tree_in_use
 
 
 def render_settings(scene):
@@ -58,6 +59,7 @@ def world(scene, depsgraph, trees):
         "map_resolution": int(cycles.sample_map_resolution) if cycles.sampling_method == "MANUAL" else 0,
         "max_bounces": int(cycles.max_bounces),
     }
-    if data.use_nodes and data.node_tree is not None:
-        entry["tree"] = trees.add(data.node_tree, data.name)
+    node_tree = tree_in_use(data)
+    if node_tree is not None:
+        entry["tree"] = trees.add(node_tree, data.name)
     return entry

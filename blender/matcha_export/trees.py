@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, field
 
+import bpy
+
 from . import node_values as values
 from .numbers import columns
 
@@ -123,6 +125,13 @@ class Trees:
         target = getattr(node, "object", None)
         if target is not None:
             entry["object_from_world"] = columns(target.matrix_world.inverted_safe())
+
+
+def tree_in_use(owner):
+    """The node tree of a material, light or world, None where it is rendered without one."""
+    # Since Blender 5 materials and worlds always use theirs, and asking is deprecated.
+    always = bpy.app.version >= (5, 0) and not isinstance(owner, bpy.types.Light)
+    return owner.node_tree if always or owner.use_nodes else None
 
 
 def carries(link):
