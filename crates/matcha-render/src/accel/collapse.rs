@@ -199,6 +199,10 @@ impl Writer<'_> {
                 }
             }
         }
+        // A walk that takes any hit visits the last child first and does not sort: small boxes
+        // lead to triangles soonest (measured: the other way round is half as fast).
+        let area = |node: u32| self.tree.nodes[node as usize].aabb().half_area();
+        children.sort_by(|a, b| area(b.0).total_cmp(&area(a.0)));
         children
     }
 

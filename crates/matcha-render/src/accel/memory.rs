@@ -1,8 +1,7 @@
 //! Memory that rays walk through at random: in huge pages where the system has them.
 //!
 //! With pages of 4 KiB nearly every node of a large scene costs a page walk too, which under a
-//! hypervisor is two-dimensional: asking for huge pages made closest-hit rays 1.7 times faster
-//! (`docs/results/rays.md`).
+//! hypervisor is two-dimensional.
 
 /// Moves items into memory of which the kernel was asked to make huge pages.
 pub(super) fn in_huge_pages<T: Copy>(items: Vec<T>) -> Vec<T> {

@@ -160,7 +160,9 @@ fn walk<K: Kernel, const ANY: bool>(
                 if mask == 0 {
                     // SAFETY: entries below `top` have been written.
                     let fresh = unsafe { stack[base..top].assume_init_mut() };
-                    sort_far_first(fresh);
+                    if !ANY {
+                        sort_far_first(fresh);
+                    }
                     top -= 1;
                     link = Link(fresh[fresh.len() - 1] as u32);
                     break;
