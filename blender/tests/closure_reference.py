@@ -128,7 +128,13 @@ def bsdf_material(name, kind, values, properties, color_attribute=None):
     for key, value in properties.items():
         setattr(node, key, value)
     for key, value in values.items():
-        node.inputs[key].default_value = value
+        if key == "Normal":
+            vector = tree.nodes.new("ShaderNodeCombineXYZ")
+            for axis, component in enumerate(value):
+                vector.inputs[axis].default_value = component
+            tree.links.new(vector.outputs[0], node.inputs["Normal"])
+        else:
+            node.inputs[key].default_value = value
     if "Tangent" in node.inputs:
         # Along the square's own x axis, which is the tangent of its slope.
         axis = tree.nodes.new("ShaderNodeTangent")
@@ -338,6 +344,18 @@ def principled_cases():
     yield "Principled", "GGX", base | {"Metallic": 0.5, "Roughness": 0.7}
 
 
+def bent_cases():
+    """Normals that lean towards one side; the second needs turning back on steep squares."""
+    for normal in ((0.5, 0.4, 0.768), (-0.6, 0.2, 0.7746)):
+        bent = {"Normal": normal}
+        yield "Diffuse", None, bent | {"Color": COLOR, "Roughness": 0.0}
+        yield "Glossy", "GGX", bent | {"Color": COLOR, "Roughness": 0.5}
+        yield "Glossy", "ASHIKHMIN_SHIRLEY", bent | {"Color": COLOR, "Roughness": 0.4}
+        yield "Glass", "BECKMANN", bent | {"Color": COLOR, "Roughness": 0.4, "IOR": 1.5}
+        yield "Sheen", "MICROFIBER", bent | {"Color": COLOR, "Roughness": 0.5}
+        yield "Principled", "MULTI_GGX", bent | {"Base Color": COLOR, "Coat Weight": 0.5}
+
+
 def cases():
     for roughness in (0.0, 0.5, 1.0):
         yield "Diffuse", None, {"Color": COLOR, "Roughness": roughness}
@@ -348,6 +366,7 @@ def cases():
         yield "Sheen", "MICROFIBER", {"Color": COLOR, "Roughness": roughness}
         yield "Sheen", "ASHIKHMIN", {"Color": COLOR, "Roughness": roughness}
     yield from principled_cases()
+    yield from bent_cases()
 
 
 NODES = {

@@ -33,7 +33,7 @@ fn rows(kind: ClosureKind, named: &[(&str, f32)]) -> Vec<f32> {
 fn hit(i: usize) -> (Frame, Vec3) {
     let u = |k: f32| (i as f32 * k).fract();
     let z = 0.1 + 0.85 * u(0.618_034);
-    let phi = 6.283 * u(0.754_878);
+    let phi = std::f32::consts::TAU * u(0.754_878);
     let r = (1.0 - z * z).sqrt();
     let wo = Vec3::new(r * phi.cos(), r * phi.sin(), z);
     let frame = Frame {

@@ -13,9 +13,9 @@ use std::f32::consts::TAU;
 
 const HEIGHTS: usize = 24;
 const AZIMUTHS: usize = 32;
-const SAMPLES: usize = 100_000;
+const SAMPLES: usize = 60_000;
 /// Points along each side of a bin at which the density is integrated.
-const FINE: usize = 48;
+const FINE: usize = 32;
 /// Likewise where that finds nothing.
 const COARSE: usize = 8;
 

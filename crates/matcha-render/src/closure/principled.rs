@@ -179,16 +179,16 @@ pub(super) fn prepare_principled(
 fn coat(bench: &mut Workbench, p: &Principled, weight: Vec3) -> Vec3 {
     let mut left = weight;
     let normal = bench.valid(p.coat_normal);
-    if bench.context.reflective_caustics {
-        if let Some(mut lobe) = bench.lobe(LOBE_GGX, weight * p.coat, normal) {
-            lobe.ior = p.coat_ior;
-            lobe.fresnel = FRESNEL_DIELECTRIC;
-            lobe.alpha_x = p.coat_roughness * p.coat_roughness;
-            lobe.alpha_y = lobe.alpha_x;
-            let tint = Vec3::splat(fresnel_mean_dielectric(p.coat_ior));
-            let reflected = bench.finish_fresnel(lobe, Sides::Reflection, Some(tint));
-            left = under(weight, reflected);
-        }
+    if bench.context.reflective_caustics
+        && let Some(mut lobe) = bench.lobe(LOBE_GGX, weight * p.coat, normal)
+    {
+        lobe.ior = p.coat_ior;
+        lobe.fresnel = FRESNEL_DIELECTRIC;
+        lobe.alpha_x = p.coat_roughness * p.coat_roughness;
+        lobe.alpha_y = lobe.alpha_x;
+        let tint = Vec3::splat(fresnel_mean_dielectric(p.coat_ior));
+        let reflected = bench.finish_fresnel(lobe, Sides::Reflection, Some(tint));
+        left = under(weight, reflected);
     }
     if p.coat_tint != Vec3::ONE {
         // The tint is that of one thickness; light crosses more of it at an angle (Beer).

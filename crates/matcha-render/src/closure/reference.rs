@@ -66,7 +66,10 @@ fn square_lobes(square: &Value) -> LobeSet {
     };
     let kind = kind(square);
     let principled = matches!(kind, ClosureKind::Principled(_));
-    let mut named: Vec<(String, Vec<f32>)> = vec![("normal".into(), n.to_array().to_vec())];
+    let mut named: Vec<(String, Vec<f32>)> = Vec::new();
+    if square["inputs"]["Normal"].is_null() {
+        named.push(("normal".into(), n.to_array().to_vec()));
+    }
     if principled {
         named.push(("coat_normal".into(), n.to_array().to_vec()));
     }

@@ -61,6 +61,8 @@ pub struct LobeSet {
     sum: f32,
     /// Sampling weight of the transparency.
     through: f32,
+    /// Some lobe transmits.
+    transmits: bool,
     /// Emitted radiance towards `wo`, W·sr⁻¹·m⁻²; of a world, its radiance.
     pub emission: Vec3,
     /// Fraction of light that passes straight through.
@@ -86,6 +88,7 @@ impl Default for LobeSet {
             count: 0,
             sum: 0.0,
             through: 0.0,
+            transmits: false,
             emission: Vec3::ZERO,
             transparency: Vec3::ZERO,
             holdout: Vec3::ZERO,
@@ -127,6 +130,7 @@ impl LobeSet {
         self.count = 0;
         self.sum = 0.0;
         self.through = 0.0;
+        self.transmits = false;
         self.emission = Vec3::ZERO;
         self.transparency = Vec3::ZERO;
         self.holdout = Vec3::ZERO;
@@ -146,6 +150,7 @@ impl LobeSet {
         self.lobes[self.count] = lobe;
         self.count += 1;
         self.sum += lobe.sample_weight;
+        self.transmits |= lobe.kind == LOBE_TRANSLUCENT || lobe.transmit_tint != Vec3::ZERO;
     }
 
     pub(super) fn add_transparency(&mut self, weight: Vec3) {
@@ -197,13 +202,17 @@ impl LobeSet {
         sum.try_normalize().unwrap_or(self.frame.n)
     }
 
-    /// Value and density of all lobes for the direction `wi`. Singular lobes are not in it.
+    /// Value and density of all lobes for the direction `wi`. Singular lobes are not in it,
+    /// and light from behind the shading normal counts only where some lobe transmits.
     pub fn eval(&self, wi: Vec3) -> Evaluated {
         let mut total = Evaluated {
             value: Vec3::ZERO,
             diffuse: Vec3::ZERO,
             pdf: 0.0,
         };
+        if !self.transmits && self.frame.n.dot(wi) < 0.0 {
+            return total;
+        }
         self.accumulate(wi, usize::MAX, &mut total);
         total.pdf /= self.sum.max(f32::MIN_POSITIVE);
         total

@@ -6,6 +6,7 @@ use super::flags;
 use super::{ClosureContext, Frame, LobeSet, prepare_closure};
 use glam::{DVec3, Vec3};
 use matcha_shade::closure::{ClosureKind, Distribution, PRINCIPLED, SheenModel};
+use std::f32::consts::TAU;
 
 type Named<'a> = &'a [(&'a str, &'a [f32])];
 
@@ -228,8 +229,8 @@ fn reflection_is_reciprocal() {
     for kind in kinds {
         let rows = rows(kind, Vec3::new(0.9, 0.5, 0.1), &[("roughness", &[0.55])]);
         for _ in 0..200 {
-            let a = direction(0.05 + 0.95 * random.f1(), 6.28 * random.f1());
-            let b = direction(0.05 + 0.95 * random.f1(), 6.28 * random.f1());
+            let a = direction(0.05 + 0.95 * random.f1(), TAU * random.f1());
+            let b = direction(0.05 + 0.95 * random.f1(), TAU * random.f1());
             let there = lobes(
                 kind,
                 &rows,

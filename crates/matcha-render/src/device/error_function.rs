@@ -35,7 +35,7 @@ pub fn inverse_error_function(x: f32) -> f32 {
     let q = q * t + 5.739_507_7e-3;
     let q = q * t - 7.622_461_3e-3;
     let q = q * t + 9.438_870_5e-3;
-    let q = q * t + 1.001_674_1;
+    let q = q * t + 1.001_674;
     let tail = q * t + 2.832_976_8;
     x * select(tail, central, w < 5.0)
 }
