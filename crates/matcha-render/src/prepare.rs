@@ -216,7 +216,7 @@ fn lower_materials(
             Shader::Cycles(tree) => {
                 lower(&scene.trees, *tree, names(scene), &material.name, MaterialKind::Surface)
             }
-            Shader::Gltf(gltf) => Ok(lower_gltf(gltf, &material.name)),
+            Shader::Gltf(gltf) => Ok((lower_gltf(&material.name, gltf), LowerReport::default())),
         })
         .collect::<Result<_, _>>()?;
     let mut graphs = Vec::with_capacity(lowered.len());

@@ -1,0 +1,109 @@
+//! Whole pictures of scenes whose radiance is known in closed form.
+
+mod scenes;
+
+use glam::Vec3;
+use matcha_render::backend::{Backend, CacheMode, Control, RenderOptions};
+use matcha_render::cpu::CpuBackend;
+use matcha_render::prepare::Prepared;
+use matcha_render::scene::Scene;
+use scenes::*;
+use std::sync::Arc;
+
+fn render(scene: Scene, options: &RenderOptions) -> Vec<[f32; 4]> {
+    let samples = scene.settings.samples;
+    let prepared = Arc::new(Prepared::new(scene, options.resolution).expect("prepares"));
+    let mut backend = CpuBackend::new(prepared, options).expect("starts");
+    backend.render(0..samples, &Control::default()).expect("renders");
+    backend.film().combined()
+}
+
+fn mean(picture: &[[f32; 4]]) -> f32 {
+    let sum: f32 = picture.iter().map(|p| p[0] + p[1] + p[2]).sum();
+    sum / (3 * picture.len()) as f32
+}
+
+/// A surface that reflects everything in a world that is 1 everywhere is 1 everywhere.
+#[test]
+fn a_white_floor_in_a_white_world_cannot_be_seen() {
+    let mut scene = empty(5.0);
+    scene.world.color = Vec3::ONE;
+    let white = add_material(&mut scene, diffuse([1.0; 3]));
+    add_square(&mut scene, Vec3::ZERO, 0.5, false, white);
+    let picture = render(scene, &RenderOptions::default());
+    assert!((mean(&picture) - 1.0).abs() < 2e-3, "{}", mean(&picture));
+}
+
+/// An emitter that fills the view is its own radiance.
+#[test]
+fn a_lamp_that_is_looked_at_has_its_radiance() {
+    let mut scene = empty(0.5);
+    let lamp = add_material(&mut scene, emission(3.0));
+    add_square(&mut scene, Vec3::ZERO, 100.0, false, lamp);
+    let picture = render(scene, &RenderOptions::default());
+    assert!((mean(&picture) - 3.0).abs() < 1e-3, "{}", mean(&picture));
+}
+
+/// Irradiance of a small patch under a parallel square emitter (a classical form factor,
+/// Howell's catalogue, configuration B-4): the floor's radiance below its centre.
+#[test]
+fn a_square_lamp_lights_the_floor_by_its_form_factor() {
+    let (half, height, radiance) = (0.5f32, 1.0f32, 4.0f32);
+    let mut scene = empty(0.9);
+    let floor = add_material(&mut scene, diffuse([0.5; 3]));
+    let lamp = add_material(&mut scene, emission(radiance));
+    add_square(&mut scene, Vec3::ZERO, 50.0, false, floor);
+    add_square(&mut scene, Vec3::Z * height, half, true, lamp);
+    // Look at a tiny part of the floor, and stop after direct light: the lamp is black
+    // for reflected light anyway.
+    scene.settings.resolution = [8, 8];
+    scene.settings.samples = 1024;
+    if let matcha_render::scene::Projection::Perspective { tan_half_width, .. } =
+        &mut scene.camera.projection
+    {
+        *tan_half_width = 0.002;
+    }
+    let x = half / height;
+    let corner = 2.0 / (2.0 * std::f32::consts::PI)
+        * (x / (1.0 + x * x).sqrt() * (x / (1.0 + x * x).sqrt()).atan());
+    let expected = 0.5 * radiance * 4.0 * corner;
+    let got = mean(&render(scene, &RenderOptions::default()));
+    assert!((got / expected - 1.0).abs() < 5e-3, "{got} instead of {expected}");
+}
+
+/// The same seed gives the same bits whatever the number of threads.
+#[test]
+fn threads_do_not_change_a_picture() {
+    let scene = || {
+        let mut scene = empty(2.0);
+        scene.world.color = Vec3::new(0.2, 0.3, 0.5);
+        let floor = add_material(&mut scene, diffuse([0.8, 0.5, 0.3]));
+        let lamp = add_material(&mut scene, emission(10.0));
+        add_square(&mut scene, Vec3::ZERO, 5.0, false, floor);
+        add_square(&mut scene, Vec3::new(0.5, 0.0, 1.0), 0.2, true, lamp);
+        scene.settings.samples = 8;
+        scene.settings.resolution = [100, 70];
+        scene
+    };
+    let with = |threads| RenderOptions { threads: Some(threads), ..RenderOptions::default() };
+    let one = render(scene(), &with(1));
+    assert_eq!(one, render(scene(), &with(3)));
+    let other_seed = RenderOptions { seed: Some(1), ..with(1) };
+    assert_ne!(one, render(scene(), &other_seed));
+}
+
+/// Constant networks have nothing to cache: the cache changes nothing at all.
+#[test]
+fn the_cache_leaves_constant_materials_alone() {
+    let scene = || {
+        let mut scene = empty(5.0);
+        scene.world.color = Vec3::ONE;
+        let white = add_material(&mut scene, diffuse([0.7; 3]));
+        add_square(&mut scene, Vec3::ZERO, 0.5, false, white);
+        scene.settings.samples = 4;
+        scene
+    };
+    let cache = CacheMode::Paper { cells: Some(1000), entries: Some(4), level_offset: 0.0 };
+    let cached = RenderOptions { cache, ..RenderOptions::default() };
+    assert_eq!(render(scene(), &RenderOptions::default()), render(scene(), &cached));
+}
