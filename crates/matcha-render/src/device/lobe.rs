@@ -130,7 +130,7 @@ pub struct LobeSample {
 
 /// Value and density of a lobe for the direction `wi`. Lobes that are perfectly sharp have
 /// none.
-#[inline]
+#[inline(always)]
 pub fn lobe_eval(lobe: ClosureLobe, frame: ClosureFrame, wi: Vec3) -> LobeValue {
     if lobe.kind <= LOBE_TRANSLUCENT {
         let soft = lobe_soft_eval(lobe, frame.wo, wi);
@@ -154,7 +154,7 @@ pub fn lobe_eval(lobe: ClosureLobe, frame: ClosureFrame, wi: Vec3) -> LobeValue 
 
 /// Samples a direction from a lobe with `u` in [0, 1)³; its third component chooses
 /// between reflection and refraction.
-#[inline]
+#[inline(always)]
 pub fn lobe_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -> LobeSample {
     if lobe.kind <= LOBE_TRANSLUCENT {
         lobe_soft_sample(lobe, frame, u)

@@ -175,7 +175,8 @@ pub fn lobe_microfacet_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -
         let probability = select(sides.probability, 1.0 - sides.probability, through);
         let straight = through && abs(lobe.ior - 1.0) < SAME_MEDIUM;
         let singular = sharp || straight;
-        let bend = max(abs(sides.cos_transmitted - cos_ho * inverse), 1.0e-20);
+        // Its square must stay a normal number: others are slow.
+        let bend = max(abs(sides.cos_transmitted - cos_ho * inverse), 1.0e-12);
         let refraction = cos_ho * sides.cos_transmitted / (bend * bend);
         let jacobian = select(0.25, refraction, through);
         let at = if singular {

@@ -4,7 +4,7 @@
 
 use glam::{Vec2, Vec3};
 use matcha_shade::device::math::{
-    PI, clamp, cos, exp, max, normalize, saturate, select, sin, sqrt, vec3,
+    PI, abs, clamp, cos, exp, max, normalize, saturate, select, sin, sqrt, vec3,
 };
 
 use super::error_function::{error_function, inverse_error_function};
@@ -88,9 +88,9 @@ pub fn microfacet_beckmann_slope(cosine: f32, u: f32) -> f32 {
     let mut high = top;
     let mut b = clamp(guess, -0.999_999, 0.999_999);
     let mut slope = inverse_error_function(b);
+    let mut value = 1.0 + b + k * exp(-slope * slope) - target;
     let mut i = 0;
-    while i < 4 {
-        let value = 1.0 + b + k * exp(-slope * slope) - target;
+    while i < 4 && abs(value) > 1.0e-6 {
         let above = value > 0.0;
         high = select(high, b, above);
         low = select(b, low, above);
@@ -100,6 +100,7 @@ pub fn microfacet_beckmann_slope(cosine: f32, u: f32) -> f32 {
         b = select(0.5 * (low + high), newton, inside);
         b = clamp(b, -0.999_999, 0.999_999);
         slope = inverse_error_function(b);
+        value = 1.0 + b + k * exp(-slope * slope) - target;
         i += 1;
     }
     slope
