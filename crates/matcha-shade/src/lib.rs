@@ -10,10 +10,17 @@ pub mod material;
 pub mod nodes;
 pub mod ops;
 pub mod opt;
+pub mod oracle;
 pub mod program;
+#[cfg(test)]
+mod properties;
 pub mod rows;
 mod shifted;
 pub mod source;
 pub mod vm;
 
 pub use nodes::LowerError;
+
+// The tests' support speaks of the crate as its users do.
+#[cfg(test)]
+extern crate self as matcha_shade;

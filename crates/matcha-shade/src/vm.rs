@@ -108,6 +108,12 @@ impl Machine {
         }
     }
 
+    /// Puts another kernel in an operation's place, for tests that must fail.
+    #[cfg(test)]
+    pub(crate) fn replace_kernel(&mut self, op: ops::OpCode, kernel: Kernel) {
+        self.kernels[op.0 as usize] = kernel;
+    }
+
     /// The instruction set in use.
     pub fn isa(&self) -> Isa {
         self.isa

@@ -126,9 +126,10 @@ pub fn gradient_value(p: Vec3, kind: u32) -> f32 {
 #[inline(always)]
 pub fn checker_value(p_in: Vec3) -> f32 {
     let p = off_borders(p_in);
-    let sum = to_int(floor(p.x)) + to_int(floor(p.y)) + to_int(floor(p.z));
-    // Both colours alternate with the parity of the sum; odd takes the first.
-    select(0.0, 1.0, (sum & 1) != 0)
+    // Both colours alternate with the parity of the sum; odd takes the first. The
+    // exclusive or has that parity too and cannot overflow.
+    let parity = to_int(floor(p.x)) ^ to_int(floor(p.y)) ^ to_int(floor(p.z));
+    select(0.0, 1.0, (parity & 1) != 0)
 }
 
 /// A brick's random number.

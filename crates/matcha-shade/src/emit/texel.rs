@@ -1,6 +1,7 @@
 //! A region's sub-graph at its virtual texel: the texel's centre takes the place of
 //! the hit's coordinate, its edges that of the footprint's axes.
 
+use crate::closure::ClosureKind;
 use crate::graph::{Graph, NodeId, NodeKind};
 use crate::input::{Input, InputKind, Part};
 use crate::opt::{self, Network, WeightedClosure};
@@ -21,9 +22,17 @@ pub(super) fn register(input: Input, texel: u16) -> u16 {
 /// A graph with the sub-graph of `root` alone, optimised, and its value there. Axis A
 /// is (size, 0) and axis B (0, size); the size is the first component of axis A.
 pub(super) fn at_centre(graph: &Graph, root: NodeId, set: u16) -> (Graph, NodeId) {
+    let mut whole = graph.clone();
+    // The value is a parameter, so that the passes keep it whatever it is; the closure
+    // is only its carrier and must not be black.
+    let output = WeightedClosure {
+        kind: ClosureKind::Holdout,
+        weight: whole.f3([1.0; 3]),
+        params: vec![root],
+    };
     let network = Network {
-        graph: graph.clone(),
-        closures: vec![output(root)],
+        graph: whole,
+        closures: vec![output],
     };
     let inner = opt::rewrite(&network, |graph, node| match node.kind {
         NodeKind::Input(Input {
@@ -52,13 +61,4 @@ pub(super) fn at_centre(graph: &Graph, root: NodeId, set: u16) -> (Graph, NodeId
 fn size(graph: &mut Graph, set: u16) -> NodeId {
     let axis = graph.input(InputKind::Uv(set), Part::AxisA);
     graph.component(axis, 0)
-}
-
-/// The value as a parameter, so that the passes keep it. The closure is only a carrier.
-fn output(root: NodeId) -> WeightedClosure {
-    WeightedClosure {
-        kind: crate::closure::ClosureKind::Holdout,
-        weight: root,
-        params: vec![root],
-    }
 }
