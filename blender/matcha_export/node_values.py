@@ -9,7 +9,7 @@ from .numbers import columns, number, numbers
 BASE = {prop.identifier for prop in bpy.types.Node.bl_rna.properties}
 # Nodes whose output sockets hold the value that they give.
 CONTENT_IN_OUTPUT = {"ShaderNodeValue", "ShaderNodeRGB", "ShaderNodeNormal"}
-RAMP_SAMPLES = 256
+RAMP_SAMPLES = 257
 CURVE_SAMPLES = 257
 
 

@@ -125,7 +125,7 @@ pub struct Ramp {
     pub hue_interpolation: String,
     /// (position, r, g, b, a), ascending by position.
     pub stops: Vec<[f32; 5]>,
-    /// The ramp sampled at 256 points over [0, 1], r g b a each. Empty: bake from stops.
+    /// The ramp at two or more even positions over [0, 1], r g b a each. Empty: bake from stops.
     #[serde(default)]
     pub table: Vec<f32>,
 }

@@ -7,8 +7,6 @@ use matcha_shade::source::{Curves, NodeTree, Property, Ramp, SourceNode};
 /// Largest number of nodes of a tree with all of its groups written out. Groups nested in
 /// groups multiply: forty of them, each with two of the next, are a trillion nodes.
 const MOST_NODES: u64 = 1_000_000;
-/// Points of a colour ramp's table, four numbers each.
-const RAMP_TABLE: usize = 256;
 /// Points of a curve's table.
 const CURVE_TABLE: usize = 257;
 
@@ -82,10 +80,9 @@ fn all_finite(values: &[f32]) -> bool {
 
 fn ramp(ramp: &Ramp) -> Result<(), String> {
     let size = ramp.table.len();
-    if size != 0 && size != 4 * RAMP_TABLE {
+    if size != 0 && (size < 8 || !size.is_multiple_of(4)) {
         return Err(format!(
-            "its colour ramp's table has {size} numbers instead of {}",
-            4 * RAMP_TABLE
+            "its colour ramp's table has {size} numbers instead of four for each of 2 or more samples"
         ));
     }
     if ramp.stops.is_empty() && size == 0 {

@@ -356,6 +356,9 @@ fn smooth(l: &mut Lowering, s: &Settings, base: [NodeId; 5], output: &str) -> No
     let found = l.graph.apply_aux(op, s.metric, &inputs);
     if name.contains("position") {
         let parts = [0, 1, 2].map(|i| {
+            if i >= s.dims || s.dims == 1 {
+                return l.graph.f1(0.0);
+            }
             let inside = l.graph.component(found, i);
             let corner = l.graph.component(c, i);
             l.op(OpCode::math_add, &[inside, corner])

@@ -163,7 +163,7 @@ fn tables_and_numbers() {
     });
     refused(
         &[tree(vec![ramp], &[])],
-        "material \"M0\", node \"r\": its colour ramp's table has 3 numbers instead of 1024",
+        "material \"M0\", node \"r\": its colour ramp's table has 3 numbers instead of four for each of 2 or more samples",
     );
     let mut matrix = node("m");
     matrix.texture_mapping = Some([f32::INFINITY; 16]);
