@@ -2,6 +2,7 @@
 //! known. Which lobes a closure has is decided on the host (`crate::closure`).
 
 use glam::Vec3;
+use matcha_shade::device::math::splat3;
 
 use super::lobe_ashikhmin::{
     lobe_ashikhmin_eval, lobe_ashikhmin_sample, lobe_velvet_eval, lobe_velvet_sample,
@@ -171,8 +172,8 @@ pub fn lobe_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -> LobeSampl
 #[inline(always)]
 pub fn lobe_sample_none() -> LobeSample {
     LobeSample {
-        wi: Vec3::ZERO,
-        value: Vec3::ZERO,
+        wi: splat3(0.0),
+        value: splat3(0.0),
         pdf: 0.0,
         flags: 0,
         roughness: 1.0,

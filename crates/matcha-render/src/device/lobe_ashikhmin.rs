@@ -14,7 +14,7 @@ use super::lobe_microfacet::lobe_roughness;
 use super::mapping::{mapping_cone, mapping_frame, mapping_place};
 
 /// Largest α that counts as a mirror.
-const MIRROR: f32 = 1.0e-4;
+const LOBE_MIRROR: f32 = 1.0e-4;
 
 /// Phong exponent of a roughness α: both have the same curvature at the peak as Beckmann.
 #[inline(always)]
@@ -35,7 +35,7 @@ pub fn lobe_log_cosine(sine2: f32) -> f32 {
 pub fn lobe_ashikhmin_eval(lobe: ClosureLobe, frame: ClosureFrame, wi: Vec3) -> LobeValue {
     let cos_wi = dot(lobe.normal, wi);
     let below = cos_wi <= 0.0 || lobe.cos_wo <= 0.0 || dot(frame.n, wi) < 0.0;
-    if below || max(lobe.alpha_x, lobe.alpha_y) <= MIRROR {
+    if below || max(lobe.alpha_x, lobe.alpha_y) <= LOBE_MIRROR {
         LobeValue {
             value: splat3(0.0),
             pdf: 0.0,
@@ -99,7 +99,7 @@ pub fn lobe_ashikhmin_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) ->
     let cosine = sqrt(max(1.0 - sine2, 0.0));
     let y = cross(lobe.normal, lobe.tangent);
     let placed = lobe.tangent * (sine * c) + y * (sine * s) + lobe.normal * cosine;
-    let mirror = max(lobe.alpha_x, lobe.alpha_y) <= MIRROR;
+    let mirror = max(lobe.alpha_x, lobe.alpha_y) <= LOBE_MIRROR;
     let h0 = if mirror { lobe.normal } else { placed };
     let h = h0 * select(1.0, -1.0, dot(h0, frame.wo) < 0.0);
     let wi = h * (2.0 * dot(h, frame.wo)) - frame.wo;

@@ -21,7 +21,7 @@ use super::microfacet::{
 };
 
 /// Indices of refraction this close to 1 do not bend light.
-const SAME_MEDIUM: f32 = 1.0e-4;
+const LOBE_SAME_MEDIUM: f32 = 1.0e-4;
 
 /// What a microfacet reflects and lets through.
 #[derive(Clone, Copy, Debug)]
@@ -124,7 +124,7 @@ pub fn lobe_microfacet_eval(lobe: ClosureLobe, frame: ClosureFrame, wi: Vec3) ->
     let through = dot(lobe.normal, wi) < 0.0;
     let sharp = lobe.alpha_x * lobe.alpha_y <= LOBE_SINGULAR_ALPHA2;
     let same_side = (dot(frame.n, wi) < 0.0) == through;
-    let straight = through && abs(lobe.ior - 1.0) < SAME_MEDIUM;
+    let straight = through && abs(lobe.ior - 1.0) < LOBE_SAME_MEDIUM;
     if lobe.cos_wo <= 0.0 || sharp || !same_side || straight {
         LobeValue {
             value: splat3(0.0),
@@ -173,7 +173,7 @@ pub fn lobe_microfacet_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -
     } else {
         let fraction = select3(sides.reflect, sides.transmit, through);
         let probability = select(sides.probability, 1.0 - sides.probability, through);
-        let straight = through && abs(lobe.ior - 1.0) < SAME_MEDIUM;
+        let straight = through && abs(lobe.ior - 1.0) < LOBE_SAME_MEDIUM;
         let singular = sharp || straight;
         // Its square must stay a normal number: others are slow.
         let bend = max(abs(sides.cos_transmitted - cos_ho * inverse), 1.0e-12);

@@ -12,7 +12,7 @@ use super::lobe::{
 use super::mapping::{mapping_cosine, mapping_disk, mapping_frame, mapping_place};
 use super::shading_normal::shading_normal_shadow;
 
-const INVERSE_PI: f32 = 1.0 / PI;
+const LOBE_INVERSE_PI: f32 = 1.0 / PI;
 
 /// Value of a diffuse lobe. The shadow of bent normals is not part of it.
 #[inline(always)]
@@ -25,11 +25,11 @@ pub fn lobe_soft_eval(lobe: ClosureLobe, wo: Vec3, wi: Vec3) -> LobeValue {
         let value = lobe_oren_nayar_intensity(lobe, wo, wi, c) * c;
         LobeValue {
             value,
-            pdf: c * INVERSE_PI,
+            pdf: c * LOBE_INVERSE_PI,
         }
     } else {
         let through = lobe.kind == LOBE_TRANSLUCENT;
-        let pdf = max(select(cosine, -cosine, through), 0.0) * INVERSE_PI;
+        let pdf = max(select(cosine, -cosine, through), 0.0) * LOBE_INVERSE_PI;
         LobeValue {
             value: splat3(pdf),
             pdf,
@@ -112,7 +112,7 @@ pub fn lobe_sheen_eval(lobe: ClosureLobe, wi: Vec3) -> LobeValue {
     let y = a * dot(cross(lobe.normal, lobe.tangent), wi);
     let length2 = max(x * x + y * y + z * z, 1.0e-20);
     let ratio = a / length2;
-    let pdf = max(z, 0.0) * INVERSE_PI * ratio * ratio;
+    let pdf = max(z, 0.0) * LOBE_INVERSE_PI * ratio * ratio;
     LobeValue {
         value: splat3(pdf),
         pdf,
