@@ -3,7 +3,8 @@
     python export_cli.py scene.blend out.glb [--progress]            (a Python with bpy)
     blender -b scene.blend --python export_cli.py -- out.glb [--progress]
 
-Lines on stdout that start with "MATCHA progress" or "MATCHA warning" are for programs; on failure
+Lines on stdout that start with "MATCHA progress", "MATCHA warning" or "MATCHA source" (a texture or
+library that the export depends on) are for programs; on failure
 one sentence, "MATCHA error ...", goes to stderr and the exit code is 2.
 """
 

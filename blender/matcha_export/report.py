@@ -30,3 +30,8 @@ class Report:
             return
         self.warnings.append(text)
         print(f"MATCHA warning {text}", file=self.stream, flush=True)
+
+    def source(self, path):
+        """A file besides the .blend that the export depends on."""
+        if self.show_progress:
+            print(f"MATCHA source {path}", file=self.stream, flush=True)

@@ -38,6 +38,8 @@ def export(path, report, scene=None):
         return glb.write(path)
 
     size = render_pass.run(scene, view_layer, task)
+    for source in sorted(set(bpy.utils.blend_paths(absolute=True, packed=False, local=False))):
+        report.source(source)
     report.progress(1.0, "done")
     return size
 
