@@ -1,2 +1,5 @@
 //! The `matcha` command.
-fn main() {}
+
+fn main() -> std::process::ExitCode {
+    matcha::main()
+}

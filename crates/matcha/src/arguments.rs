@@ -1,0 +1,180 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use matcha_render::backend::{CacheMode, RenderOptions};
+use std::path::PathBuf;
+
+/// A path tracer that keeps what material networks compute.
+#[derive(Debug, Parser)]
+#[command(name = "matcha", version, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene into a picture
+    Render(RenderArguments),
+    /// Render a scene without and with the material cache, in turn, and compare
+    Compare(CompareArguments),
+    /// Say what became of a scene's materials
+    Inspect(InspectArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RenderArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Picture to write: .exr (linear, all layers) or .png (through the scene's view transform)
+    #[arg(short, long, value_name = "OUT.(exr|png)")]
+    pub output: PathBuf,
+    /// The material cache
+    #[arg(long, value_enum, default_value_t = Cache::Paper)]
+    pub cache: Cache,
+    #[command(flatten)]
+    pub options: Options,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompareArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Folder for the pictures and the report; made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// The material cache of the second picture
+    #[arg(long, value_enum, default_value_t = Cache::Paper)]
+    pub cache: Cache,
+    #[command(flatten)]
+    pub options: Options,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct InspectArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Only this material
+    #[arg(long, value_name = "NAME")]
+    pub material: Option<String>,
+    /// Draw the graph in Graphviz' language, cacheable nodes marked
+    #[arg(long, requires = "material")]
+    pub dot: bool,
+    /// For machines
+    #[arg(long, conflicts_with = "dot")]
+    pub json: bool,
+}
+
+/// What is loaded, and how.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    /// Scene: .glb, .gltf or .blend
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+    /// Refuse scenes of which something must be substituted
+    #[arg(long)]
+    pub strict: bool,
+    /// The Blender that exports .blend files; otherwise it is searched
+    #[arg(long, value_name = "PATH")]
+    pub blender: Option<PathBuf>,
+}
+
+/// How to render.
+#[derive(Debug, Args)]
+pub(crate) struct Options {
+    /// Samples a pixel; otherwise the scene's
+    #[arg(long, value_name = "N", value_parser = samples)]
+    pub samples: Option<u32>,
+    /// Size in pixels; otherwise the scene's
+    #[arg(long, value_name = "WxH", value_parser = resolution)]
+    pub resolution: Option<[u32; 2]>,
+    /// Cells of the cache [default: 10000000, or what fits]
+    #[arg(long, value_name = "N")]
+    pub cells: Option<u64>,
+    /// Entries of a cell [default: 10]
+    #[arg(long, value_name = "N")]
+    pub entries: Option<u32>,
+    /// Added to the level of the cache's virtual textures: positive is finer
+    #[arg(long, value_name = "F", default_value_t = 0.0, value_parser = finite, allow_negative_numbers = true)]
+    pub level_offset: f32,
+    /// Threads; otherwise one for each core
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub threads: Option<usize>,
+    /// Seed; otherwise the scene's
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u32>,
+    /// Where to render
+    #[arg(long, value_enum, default_value_t = Device::Auto)]
+    pub device: Device,
+    /// Write full statistics
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Cache {
+    /// As in Fujieda and Harada 2022
+    Paper,
+    /// Every network is evaluated at every hit
+    Off,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Device {
+    /// The fastest there is
+    Auto,
+    /// The processor
+    Cpu,
+}
+
+impl Options {
+    /// Options of a backend with a cache or none.
+    pub fn render_options(&self, cache: Cache) -> RenderOptions {
+        let cache = match cache {
+            Cache::Off => CacheMode::Off,
+            Cache::Paper => CacheMode::Paper {
+                cells: self.cells,
+                entries: self.entries,
+                level_offset: self.level_offset,
+            },
+        };
+        RenderOptions {
+            resolution: self.resolution,
+            threads: self.threads,
+            seed: self.seed,
+            cache,
+        }
+    }
+}
+
+fn samples(text: &str) -> Result<u32, String> {
+    match text.parse::<u32>() {
+        Ok(n @ 1..=16_777_216) => Ok(n),
+        Ok(0) => Err("a picture needs at least one sample a pixel".into()),
+        _ => Err("samples are a number from 1 to 16777216".into()),
+    }
+}
+
+fn resolution(text: &str) -> Result<[u32; 2], String> {
+    let refuse = || "a resolution is WIDTHxHEIGHT, each 1 to 65536, as in 1920x1080".to_owned();
+    let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(refuse)?;
+    let side = |text: &str| text.parse().ok().filter(|n| (1..=65_536).contains(n));
+    match (side(width), side(height)) {
+        (Some(width), Some(height)) => Ok([width, height]),
+        _ => Err(refuse()),
+    }
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(n @ 1..=4096) => Ok(n),
+        _ => Err("threads are a number from 1 to 4096".into()),
+    }
+}
+
+fn finite(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(x) if x.abs() <= 64.0 => Ok(x),
+        _ => Err("a level offset is a number from -64 to 64".into()),
+    }
+}

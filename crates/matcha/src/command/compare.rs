@@ -1,0 +1,120 @@
+//! `matcha compare`: the paper's figure for a scene.
+
+use super::report::Report;
+use crate::End;
+use crate::arguments::{Cache, CompareArguments};
+use crate::output;
+use crate::picture::figure::{self, Panel};
+use crate::picture::{difference, exr_file, heat, png_file};
+use crate::session::{self, FullStatistics, Loaded};
+use anyhow::{Context, Result};
+use image::RgbImage;
+use matcha_render::backend::Backend;
+use matcha_render::cpu::CpuBackend;
+use serde::Serialize;
+
+/// Both renderings' statistics.
+#[derive(Serialize)]
+struct BothStatistics {
+    without: FullStatistics,
+    with: FullStatistics,
+}
+
+pub(crate) fn run(arguments: &CompareArguments) -> Result<End> {
+    output::make_folder(&arguments.output)?;
+    if let Some(stats) = &arguments.options.stats {
+        output::check_file(stats)?;
+    }
+    let loaded = Loaded::new(&arguments.scene, &arguments.options)?;
+    let mut without = loaded.backend(&arguments.options, Cache::Off)?;
+    let mut with = loaded.backend(&arguments.options, arguments.cache)?;
+    let complete = session::render(&loaded, &mut [&mut without, &mut with])?;
+    let shown = Shown::new(&loaded, &without, &with)?;
+    let report = Report::new(&loaded, &without, &with, [&shown.without, &shown.with]);
+    write_all(arguments, &shown, &report, [&without, &with])?;
+    if let Some(stats) = &arguments.options.stats {
+        let both = BothStatistics {
+            without: FullStatistics::of(&loaded, &without),
+            with: FullStatistics::of(&loaded, &with),
+        };
+        output::write_json(stats, &both)?;
+    }
+    println!("{}", report.summary());
+    println!("pictures and report are in {}", arguments.output.display());
+    Ok(if complete {
+        End::Done
+    } else {
+        End::Interrupted
+    })
+}
+
+/// The pictures as people see them.
+struct Shown {
+    without: RgbImage,
+    with: RgbImage,
+    difference: RgbImage,
+    heat_map: RgbImage,
+}
+
+impl Shown {
+    fn new(loaded: &Loaded, without: &CpuBackend, with: &CpuBackend) -> Result<Self> {
+        let [width, height] = loaded.resolution();
+        let show = |backend: &CpuBackend| {
+            let bytes = loaded.view.bytes(&backend.film().combined());
+            RgbImage::from_raw(width, height, bytes).context("the film is smaller than its picture")
+        };
+        let without_cache = show(without)?;
+        let with_cache = show(with)?;
+        Ok(Self {
+            difference: difference::magnified(width, height, &with_cache, &without_cache),
+            heat_map: heat::map(width, height, &with.film().nodes_found()),
+            without: without_cache,
+            with: with_cache,
+        })
+    }
+
+    fn figure(&self, report: &Report) -> RgbImage {
+        let [without, with, difference, nodes] = report.captions();
+        let mut heat_map = self.heat_map.clone();
+        figure::draw_heat_scale(&mut heat_map);
+        figure::compose(&[
+            Panel {
+                picture: self.without.clone(),
+                lines: without,
+            },
+            Panel {
+                picture: self.with.clone(),
+                lines: with,
+            },
+            Panel {
+                picture: self.difference.clone(),
+                lines: difference,
+            },
+            Panel {
+                picture: heat_map,
+                lines: nodes,
+            },
+        ])
+    }
+}
+
+fn write_all(
+    arguments: &CompareArguments,
+    shown: &Shown,
+    report: &Report,
+    [without, with]: [&CpuBackend; 2],
+) -> Result<()> {
+    let path = |name: &str| arguments.output.join(name);
+    output::write(&path("without.exr"), &exr_file::encode(without.film())?)?;
+    output::write(&path("with.exr"), &exr_file::encode(with.film())?)?;
+    output::write(
+        &path("difference.png"),
+        &png_file::encode(&shown.difference)?,
+    )?;
+    output::write(&path("heatmap.png"), &png_file::encode(&shown.heat_map)?)?;
+    output::write(
+        &path("figure.png"),
+        &png_file::encode(&shown.figure(report))?,
+    )?;
+    output::write_json(&path("report.json"), report)
+}

@@ -1,0 +1,82 @@
+//! The `matcha` command: scenes in, pictures and comparisons out. What other tools need
+//! of it, pictures and their measures, is public.
+
+mod arguments;
+mod command;
+mod interrupt;
+mod loading;
+pub mod measure;
+mod output;
+pub mod picture;
+mod progress;
+mod session;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+/// Runs the command line of this process. Every error is one sentence on standard
+/// error and exit code 2; a rendering that was interrupted ends with 130.
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return refuse_arguments(&error),
+    };
+    start_log();
+    let outcome = match &arguments.command {
+        Command::Render(arguments) => command::render::run(arguments),
+        Command::Compare(arguments) => command::compare::run(arguments),
+        Command::Inspect(arguments) => command::inspect::run(arguments),
+    };
+    match outcome {
+        Ok(End::Done) => ExitCode::SUCCESS,
+        Ok(End::Interrupted) => ExitCode::from(130),
+        Err(error) => {
+            eprintln!("matcha: {}", one_line(&format!("{error:#}")));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// How a command ended that did not fail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum End {
+    Done,
+    Interrupted,
+}
+
+/// Help and version go to standard output; anything else is one sentence.
+fn refuse_arguments(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        let _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = error.render().to_string();
+    // What clap says before its usage and tips is the sentence.
+    let sentence: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .take_while(|line| !line.is_empty() && !line.starts_with("Usage:"))
+        .collect();
+    let sentence = sentence.join(" ");
+    let sentence = sentence.strip_prefix("error: ").unwrap_or(&sentence);
+    eprintln!("matcha: {}", one_line(sentence));
+    ExitCode::from(2)
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Warnings and what was substituted, on standard error; more with `RUST_LOG`.
+fn start_log() {
+    let filter = tracing_subscriber::EnvFilter::try_from_default_env()
+        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("info"));
+    tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr)
+        .without_time()
+        .with_target(false)
+        .compact()
+        .init();
+}

@@ -1,0 +1,134 @@
+//! Files: checked before anything is rendered, written beside and then renamed, so that
+//! nobody ever finds half of one.
+
+use anyhow::{Context, Result, bail};
+use serde::Serialize;
+use std::ffi::OsStr;
+use std::io::Write;
+use std::path::Path;
+
+/// A kind of picture file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Exr,
+    Png,
+}
+
+/// The kind that a file's name says.
+pub(crate) fn format_of(path: &Path) -> Result<Format> {
+    let extension = path
+        .extension()
+        .and_then(OsStr::to_str)
+        .map(str::to_ascii_lowercase);
+    match extension.as_deref() {
+        Some("exr") => Ok(Format::Exr),
+        Some("png") => Ok(Format::Png),
+        _ => bail!(
+            "{}: a picture's name must end in .exr or .png",
+            path.display()
+        ),
+    }
+}
+
+/// Refuses a file that could not be written later.
+pub(crate) fn check_file(path: &Path) -> Result<()> {
+    if path.is_dir() {
+        bail!("{}: is a folder, not a file", path.display());
+    }
+    if path.file_name().is_none() {
+        bail!("{}: is no name of a file", path.display());
+    }
+    check_folder(folder_of(path))
+}
+
+/// Makes a folder where there is none, and refuses one that nothing can be written to.
+pub(crate) fn make_folder(path: &Path) -> Result<()> {
+    if path.exists() && !path.is_dir() {
+        bail!("{}: is a file, not a folder", path.display());
+    }
+    std::fs::create_dir_all(path)
+        .with_context(|| format!("{}: the folder cannot be made", path.display()))?;
+    check_folder(path)
+}
+
+fn check_folder(folder: &Path) -> Result<()> {
+    if !folder.is_dir() {
+        bail!("{}: there is no such folder", folder.display());
+    }
+    let probe = part_file().tempfile_in(folder);
+    probe.with_context(|| format!("{}: nothing can be written there", folder.display()))?;
+    Ok(())
+}
+
+/// Writes a whole file, or nothing.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
+    let write = || -> std::io::Result<()> {
+        let folder = folder_of(path);
+        let mut file = part_file().tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        file.persist(path).map_err(|error| error.error)?;
+        Ok(())
+    };
+    write().with_context(|| format!("{}: cannot be written", path.display()))
+}
+
+/// Writes JSON, indented, with a newline at its end.
+pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
+    let mut text = serde_json::to_string_pretty(value)?;
+    text.push('\n');
+    write(path, text.as_bytes())
+}
+
+/// A file that is not finished, with the permissions that any new file has.
+fn part_file() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".matcha-").suffix(".part");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // The system's mask takes away what the user does not want.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole_and_leaves_nothing_beside() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        write(&path, b"one").unwrap();
+        write(&path, b"two").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"two");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_refused_before() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(check_file(&folder.path().join("a.png")).is_ok());
+        assert!(check_file(folder.path()).is_err());
+        assert!(check_file(&folder.path().join("none/a.png")).is_err());
+        std::fs::write(folder.path().join("f"), "").unwrap();
+        assert!(make_folder(&folder.path().join("f")).is_err());
+        assert!(make_folder(&folder.path().join("f/g")).is_err());
+        assert!(make_folder(&folder.path().join("new/er")).is_ok());
+    }
+
+    #[test]
+    fn names_tell_the_format() {
+        assert_eq!(format_of(Path::new("a/b.EXR")).unwrap(), Format::Exr);
+        assert!(format_of(Path::new("a.jpg")).is_err() && format_of(Path::new("png")).is_err());
+    }
+}
