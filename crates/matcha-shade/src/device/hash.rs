@@ -87,11 +87,7 @@ pub fn hash_mix3(x: u32, y: u32, z: u32) -> HashState {
 /// A hash as a float in [0, 1].
 #[inline(always)]
 pub fn unit_of(hash: u32) -> f32 {
-    // Two halves, because only signed words convert in one instruction before AVX-512:
-    // 2¹⁶·high is exact, so the sum rounds once, as the direct conversion does.
-    let high = (hash >> 16) as i32 as f32;
-    let low = (hash & 0xffff) as i32 as f32;
-    (high * 65536.0 + low) * HASH_TO_UNIT
+    hash as f32 * HASH_TO_UNIT
 }
 
 /// Hash of a float's bits, in [0, 1].

@@ -97,22 +97,6 @@ pub fn voronoi_smooth_init(
     [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
 }
 
-/// The smooth distance.
-#[inline(always)]
-pub fn voronoi_smooth_distance(
-    _c: Vec3,
-    _cw: f32,
-    _f: Vec3,
-    _fw: f32,
-    _randomness: f32,
-    _smoothness: f32,
-    _exponent: f32,
-    _metric: u32,
-    s: [f32; 8],
-) -> f32 {
-    s[0]
-}
-
 /// The smooth colour.
 #[inline(always)]
 pub fn voronoi_smooth_color(
@@ -1147,4 +1131,271 @@ pub fn voronoi_radius_finish(
     s: [f32; 5],
 ) -> f32 {
     0.5 * sqrt(s[0])
+}
+
+/// Before the blend of distances alone.
+#[inline(always)]
+pub fn voronoi_smooth_distance_init(
+    _c: Vec3,
+    _cw: f32,
+    _f: Vec3,
+    _fw: f32,
+    _randomness: f32,
+    _smoothness: f32,
+    _exponent: f32,
+    _metric: u32,
+) -> [f32; 1] {
+    [0.0]
+}
+
+/// The blended distance.
+#[inline(always)]
+pub fn voronoi_smooth_distance_finish(
+    _c: Vec3,
+    _cw: f32,
+    _f: Vec3,
+    _fw: f32,
+    _randomness: f32,
+    _smoothness: f32,
+    _exponent: f32,
+    _metric: u32,
+    s: [f32; 1],
+) -> f32 {
+    s[0]
+}
+
+/// One cell of the blend of distances alone.
+#[inline(always)]
+pub fn voronoi_smooth_distance_cell(
+    i: u32,
+    corner: Quad,
+    inside: Quad,
+    randomness: f32,
+    smoothness: f32,
+    exponent: f32,
+    metric: u32,
+    dims: u32,
+    before: f32,
+) -> f32 {
+    let to_point = voronoi_to_point(i, 2, corner, inside, randomness, dims);
+    let width = voronoi_smooth_width(smoothness);
+    let distance = voronoi_length(to_point, exponent, metric, dims);
+    let h = voronoi_smooth_blend(before, distance, max(width, 1.0e-6), i == 0);
+    mix(before, distance, h) - width * h * (1.0 - h)
+}
+
+/// One cell of the blend of distances alone in 1 dimension, Euclidean.
+#[inline(always)]
+pub fn voronoi_smooth_distance_step_1d(
+    i: u32,
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    smoothness: f32,
+    exponent: f32,
+    _metric: u32,
+    s: [f32; 1],
+) -> [f32; 1] {
+    [voronoi_smooth_distance_cell(
+        i,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        smoothness,
+        exponent,
+        METRIC_EUCLIDEAN,
+        1,
+        s[0],
+    )]
+}
+
+/// One cell of the blend of distances alone in 1 dimension, any metric.
+#[inline(always)]
+pub fn voronoi_smooth_distance_metric_step_1d(
+    i: u32,
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    smoothness: f32,
+    exponent: f32,
+    metric: u32,
+    s: [f32; 1],
+) -> [f32; 1] {
+    [voronoi_smooth_distance_cell(
+        i,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        smoothness,
+        exponent,
+        metric,
+        1,
+        s[0],
+    )]
+}
+
+/// One cell of the blend of distances alone in 2 dimensions, Euclidean.
+#[inline(always)]
+pub fn voronoi_smooth_distance_step_2d(
+    i: u32,
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    smoothness: f32,
+    exponent: f32,
+    _metric: u32,
+    s: [f32; 1],
+) -> [f32; 1] {
+    [voronoi_smooth_distance_cell(
+        i,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        smoothness,
+        exponent,
+        METRIC_EUCLIDEAN,
+        2,
+        s[0],
+    )]
+}
+
+/// One cell of the blend of distances alone in 2 dimensions, any metric.
+#[inline(always)]
+pub fn voronoi_smooth_distance_metric_step_2d(
+    i: u32,
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    smoothness: f32,
+    exponent: f32,
+    metric: u32,
+    s: [f32; 1],
+) -> [f32; 1] {
+    [voronoi_smooth_distance_cell(
+        i,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        smoothness,
+        exponent,
+        metric,
+        2,
+        s[0],
+    )]
+}
+
+/// One cell of the blend of distances alone in 3 dimensions, Euclidean.
+#[inline(always)]
+pub fn voronoi_smooth_distance_step_3d(
+    i: u32,
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    smoothness: f32,
+    exponent: f32,
+    _metric: u32,
+    s: [f32; 1],
+) -> [f32; 1] {
+    [voronoi_smooth_distance_cell(
+        i,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        smoothness,
+        exponent,
+        METRIC_EUCLIDEAN,
+        3,
+        s[0],
+    )]
+}
+
+/// One cell of the blend of distances alone in 3 dimensions, any metric.
+#[inline(always)]
+pub fn voronoi_smooth_distance_metric_step_3d(
+    i: u32,
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    smoothness: f32,
+    exponent: f32,
+    metric: u32,
+    s: [f32; 1],
+) -> [f32; 1] {
+    [voronoi_smooth_distance_cell(
+        i,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        smoothness,
+        exponent,
+        metric,
+        3,
+        s[0],
+    )]
+}
+
+/// One cell of the blend of distances alone in 4 dimensions, Euclidean.
+#[inline(always)]
+pub fn voronoi_smooth_distance_step_4d(
+    i: u32,
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    smoothness: f32,
+    exponent: f32,
+    _metric: u32,
+    s: [f32; 1],
+) -> [f32; 1] {
+    [voronoi_smooth_distance_cell(
+        i,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        smoothness,
+        exponent,
+        METRIC_EUCLIDEAN,
+        4,
+        s[0],
+    )]
+}
+
+/// One cell of the blend of distances alone in 4 dimensions, any metric.
+#[inline(always)]
+pub fn voronoi_smooth_distance_metric_step_4d(
+    i: u32,
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    smoothness: f32,
+    exponent: f32,
+    metric: u32,
+    s: [f32; 1],
+) -> [f32; 1] {
+    [voronoi_smooth_distance_cell(
+        i,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        smoothness,
+        exponent,
+        metric,
+        4,
+        s[0],
+    )]
 }

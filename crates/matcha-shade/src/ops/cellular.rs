@@ -82,10 +82,10 @@ operations! {
         cost: 3.0000000000000004, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_1d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_1d,
-            finish: voronoi_ops::voronoi_smooth_distance,
-            state: 8,
+            init: voronoi_ops::voronoi_smooth_distance_init,
+            step: voronoi_ops::voronoi_smooth_distance_step_1d,
+            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            state: 1,
         },
     }
 
@@ -94,10 +94,10 @@ operations! {
         cost: 3.0000000000000004, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_1d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_1d,
-            finish: voronoi_ops::voronoi_smooth_distance,
-            state: 8,
+            init: voronoi_ops::voronoi_smooth_distance_init,
+            step: voronoi_ops::voronoi_smooth_distance_metric_step_1d,
+            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            state: 1,
         },
     }
 
@@ -226,10 +226,10 @@ operations! {
         cost: 13.499999999999998, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_2d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_2d,
-            finish: voronoi_ops::voronoi_smooth_distance,
-            state: 8,
+            init: voronoi_ops::voronoi_smooth_distance_init,
+            step: voronoi_ops::voronoi_smooth_distance_step_2d,
+            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            state: 1,
         },
     }
 
@@ -238,10 +238,10 @@ operations! {
         cost: 13.499999999999998, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_2d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_2d,
-            finish: voronoi_ops::voronoi_smooth_distance,
-            state: 8,
+            init: voronoi_ops::voronoi_smooth_distance_init,
+            step: voronoi_ops::voronoi_smooth_distance_metric_step_2d,
+            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            state: 1,
         },
     }
 
@@ -370,10 +370,10 @@ operations! {
         cost: 67.5, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_3d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_3d,
-            finish: voronoi_ops::voronoi_smooth_distance,
-            state: 8,
+            init: voronoi_ops::voronoi_smooth_distance_init,
+            step: voronoi_ops::voronoi_smooth_distance_step_3d,
+            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            state: 1,
         },
     }
 
@@ -382,10 +382,10 @@ operations! {
         cost: 67.5, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_3d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_3d,
-            finish: voronoi_ops::voronoi_smooth_distance,
-            state: 8,
+            init: voronoi_ops::voronoi_smooth_distance_init,
+            step: voronoi_ops::voronoi_smooth_distance_metric_step_3d,
+            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            state: 1,
         },
     }
 
@@ -514,10 +514,10 @@ operations! {
         cost: 1800.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_4d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_4d,
-            finish: voronoi_ops::voronoi_smooth_distance,
-            state: 8,
+            init: voronoi_ops::voronoi_smooth_distance_init,
+            step: voronoi_ops::voronoi_smooth_distance_step_4d,
+            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            state: 1,
         },
     }
 
@@ -526,10 +526,10 @@ operations! {
         cost: 1800.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_4d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_4d,
-            finish: voronoi_ops::voronoi_smooth_distance,
-            state: 8,
+            init: voronoi_ops::voronoi_smooth_distance_init,
+            step: voronoi_ops::voronoi_smooth_distance_metric_step_4d,
+            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            state: 1,
         },
     }
 
