@@ -1,0 +1,87 @@
+"""Sun, sky, camera, and the settings of the picture."""
+
+import math
+
+import bpy
+from mathutils import Vector
+
+from . import room
+
+SUN_DIRECTION = Vector((0.80, 0.34, -0.47))
+EYE = Vector((0.74, -1.92, 1.27))
+TARGET = Vector((-0.20, 0.30, 0.93))
+FOCUS = Vector((-0.12, -0.05, 0.80))
+
+
+def build():
+    sun()
+    sky()
+    camera()
+    settings()
+
+
+def light(name, kind, energy, color):
+    data = bpy.data.lights.new(name, kind)
+    data.energy, data.color = energy, color
+    made = bpy.data.objects.new(name, data)
+    bpy.context.scene.collection.objects.link(made)
+    return made, data
+
+
+def sun():
+    made, data = light("Sun", "SUN", 15.0, (1.0, 0.70, 0.40))
+    data.angle = math.radians(1.4)
+    made.rotation_euler = SUN_DIRECTION.to_track_quat("-Z", "Y").to_euler()
+
+
+def sky():
+    """A soft area outside of the window, a fill from the open side, and a dim world."""
+    near, far, low, high = room.WINDOW
+    made, data = light("Sky", "AREA", 48.0, (0.72, 0.85, 1.0))
+    data.shape, data.size, data.size_y = "RECTANGLE", far - near, high - low
+    made.location = (room.LEFT - 0.35, (near + far) / 2, (low + high) / 2 + 0.15)
+    made.rotation_euler = Vector((1, 0.0, -0.25)).to_track_quat("-Z", "Y").to_euler()
+    made.visible_camera = False
+    made, data = light("Fill", "AREA", 14.0, (1.0, 0.90, 0.80))
+    data.shape, data.size, data.size_y = "RECTANGLE", 2.4, 1.6
+    made.location = (0.9, -2.55, 1.9)
+    made.rotation_euler = Vector((-0.2, 1, -0.3)).to_track_quat("-Z", "Y").to_euler()
+    made.visible_camera = False
+    world = bpy.data.worlds.new("Evening")
+    world.use_nodes = True
+    ground = world.node_tree.nodes["Background"]
+    ground.inputs[0].default_value = (0.75, 0.82, 1.0, 1.0)
+    ground.inputs[1].default_value = 0.12
+    bpy.context.scene.world = world
+
+
+def camera():
+    data = bpy.data.cameras.new("Camera")
+    made = bpy.data.objects.new("Camera", data)
+    bpy.context.scene.collection.objects.link(made)
+    bpy.context.scene.camera = made
+    aim = TARGET - EYE
+    made.location, made.rotation_euler = EYE, aim.to_track_quat("-Z", "Y").to_euler()
+    data.lens, data.sensor_width = 33.0, 36.0
+    data.dof.use_dof = True
+    data.dof.focus_distance = (FOCUS - EYE).dot(aim.normalized())
+    data.dof.aperture_fstop = 4.0
+
+
+def settings():
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.render.resolution_x, scene.render.resolution_y = 640, 360
+    scene.render.resolution_percentage = 100
+    scene.render.filter_size = 1.5
+    scene.view_settings.view_transform = "AgX"
+    scene.view_settings.look = "None"
+    scene.view_settings.exposure = 0.0
+    cycles = scene.cycles
+    cycles.samples, cycles.use_adaptive_sampling, cycles.use_denoising = 64, False, False
+    cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces = 8, 6, 4
+    cycles.transmission_bounces, cycles.transparent_max_bounces = 4, 8
+    cycles.sample_clamp_indirect, cycles.sample_clamp_direct = 8.0, 0.0
+    cycles.caustics_reflective = cycles.caustics_refractive = False
+    cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 1.5
+    cycles.light_sampling_threshold = 0.0
