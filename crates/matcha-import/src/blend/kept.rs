@@ -4,8 +4,8 @@
 //! the exporter warned of.
 
 use super::EXPORTER;
+use super::run::Told;
 use crate::error::ImportError;
-use crate::file::glb;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io;
@@ -95,18 +95,15 @@ impl Kept {
     }
 
     /// Moves a finished export to its place and forgets the older ones of the same scene.
-    pub fn keep(&self, partial: &Path, warnings: &[String]) -> Result<(), ImportError> {
+    pub fn keep(&self, partial: &Path, told: &Told) -> Result<(), ImportError> {
         let write = |source| ImportError::Write {
             file: self.glb.clone(),
             source,
         };
-        let sources = external_files(partial)
-            .into_iter()
-            .map(SourceFile::of)
-            .collect();
+        let sources = told.sources.iter().cloned().map(SourceFile::of).collect();
         let notes = Notes {
             sources,
-            warnings: warnings.to_vec(),
+            warnings: told.warnings.clone(),
         };
         let json = serde_json::to_vec_pretty(&notes).map_err(|e| write(io::Error::other(e)))?;
         // Notes that belong to another export must never stand beside this one.
@@ -142,26 +139,6 @@ impl Kept {
             }
         }
     }
-}
-
-/// The files that an export says it was made from.
-fn external_files(glb: &Path) -> Vec<PathBuf> {
-    let Ok(bytes) = fs::read(glb) else {
-        return Vec::new();
-    };
-    let Ok(chunks) = glb::split(&bytes) else {
-        return Vec::new();
-    };
-    let Ok(json) = serde_json::from_slice::<serde_json::Value>(chunks.json) else {
-        return Vec::new();
-    };
-    let list = json
-        .pointer("/extensions/MATCHA_cycles/external_files")
-        .and_then(|list| list.as_array());
-    list.into_iter()
-        .flatten()
-        .filter_map(|path| path.as_str().map(PathBuf::from))
-        .collect()
 }
 
 /// The first of the chosen folder, the user's cache folder and the scene's own that can be written.

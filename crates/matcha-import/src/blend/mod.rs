@@ -42,11 +42,11 @@ pub(crate) fn export(
         .map_err(|error| fail(format!("the exporter cannot be written: {error}")))?;
     let partial = kept.partial();
     match run::run(&program, blend, &partial, scripts.path(), progress) {
-        Ok(warnings) => {
-            kept.keep(&partial, &warnings)?;
+        Ok(told) => {
+            kept.keep(&partial, &told)?;
             Ok(Exported {
                 glb: kept.glb,
-                warnings,
+                warnings: told.warnings,
             })
         }
         Err(reason) => {

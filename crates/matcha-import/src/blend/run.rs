@@ -3,7 +3,7 @@
 use super::program::Program;
 use crate::Progress;
 use std::io::{BufRead, BufReader, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::mpsc::{self, Sender};
 
@@ -13,17 +13,27 @@ const ENTRY: &str = "export_cli.py";
 const PROGRESS: &str = "MATCHA progress ";
 /// `MATCHA warning one sentence`
 const WARNING: &str = "MATCHA warning ";
+/// `MATCHA source /path/of/a/texture.png`
+const SOURCE: &str = "MATCHA source ";
 /// `MATCHA error one sentence`
 const ERROR: &str = "MATCHA error ";
 
-/// Exports `blend` to `glb` and returns the exporter's warnings; otherwise the reason why not, one line.
+/// What an exporter told on its way.
+#[derive(Debug, Default)]
+pub(super) struct Told {
+    pub warnings: Vec<String>,
+    /// Files besides the scene that the export depends on.
+    pub sources: Vec<PathBuf>,
+}
+
+/// Exports `blend` to `glb`; otherwise the reason why not, one line.
 pub(super) fn run(
     program: &Program,
     blend: &Path,
     glb: &Path,
     scripts: &Path,
     progress: &mut dyn FnMut(Progress),
-) -> Result<Vec<String>, String> {
+) -> Result<Told, String> {
     let mut command = command(program, blend, glb, &scripts.join(ENTRY));
     command
         .env("PYTHONDONTWRITEBYTECODE", "1")
@@ -38,7 +48,7 @@ pub(super) fn run(
         child.stdout.take().map(|pipe| listen(pipe, send.clone())),
         child.stderr.take().map(|pipe| listen(pipe, send)),
     ];
-    let (mut reason, mut last, mut warnings) = (None, String::new(), Vec::new());
+    let (mut reason, mut last, mut told) = (None, String::new(), Told::default());
     for line in lines {
         if let Some(rest) = line.strip_prefix(PROGRESS) {
             let (fraction, what) = rest.split_once(' ').unwrap_or((rest, ""));
@@ -48,7 +58,9 @@ pub(super) fn run(
                 what: what.to_owned(),
             });
         } else if let Some(rest) = line.strip_prefix(WARNING) {
-            warnings.push(rest.to_owned());
+            told.warnings.push(rest.to_owned());
+        } else if let Some(rest) = line.strip_prefix(SOURCE) {
+            told.sources.push(PathBuf::from(rest));
         } else if let Some(rest) = line.strip_prefix(ERROR) {
             reason = Some(rest.to_owned());
         } else if !line.trim().is_empty() {
@@ -61,7 +73,7 @@ pub(super) fn run(
     }
     let status = child.wait().map_err(|error| error.to_string())?;
     match (status.success(), reason) {
-        (true, None) if glb.is_file() => Ok(warnings),
+        (true, None) if glb.is_file() => Ok(told),
         (_, Some(reason)) => Err(reason),
         (true, None) => Err(format!("it wrote no file (its last words: {last})")),
         (false, None) => Err(format!("{status}; its last words: {last}")),
