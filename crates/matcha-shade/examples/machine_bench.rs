@@ -9,6 +9,7 @@ use matcha_shade::graph::{Graph, NodeId, Span, Table, TextureRef};
 use matcha_shade::input::InputKind;
 use matcha_shade::material::MaterialGraph;
 use matcha_shade::ops::{self, OpCode};
+use matcha_shade::opt::Optimise;
 use matcha_shade::program::Program;
 use matcha_shade::vm::{Isa, Machine, Rows, Textures};
 use std::time::Instant;
@@ -47,7 +48,7 @@ fn main() {
     println!("|---|---|{}---|", "---|".repeat(sets.len()));
     for (name, material) in networks() {
         if name.contains(&filter) {
-            let program = plain(&material, true);
+            let program = plain(&material, Optimise::Rounding);
             row(
                 name,
                 Some(program.words().len()),
@@ -62,8 +63,8 @@ fn main() {
     println!("|---|---|{}---|", "---|".repeat(sets.len()));
     for op in ops::all().filter(|op| op.info().name.contains(&filter)) {
         let domain = op.info().domain;
-        let with = times(&plain(&copies(Some(op)), false), domain);
-        let without = times(&plain(&copies(None), false), domain);
+        let with = times(&plain(&copies(Some(op)), Optimise::Nothing), domain);
+        let without = times(&plain(&copies(None), Optimise::Nothing), domain);
         let each: Vec<f64> = with
             .iter()
             .zip(without)
@@ -88,7 +89,7 @@ fn row(name: &str, words: Option<usize>, times: &[f64]) {
     println!("| {name} | {words} | {} | {gain:.1}× |", cells.join(" | "));
 }
 
-fn plain(material: &MaterialGraph, optimise: bool) -> Program {
+fn plain(material: &MaterialGraph, optimise: Optimise) -> Program {
     let options = Options {
         cache: false,
         optimise,

@@ -32,7 +32,7 @@ pub fn dependencies(graph: &Graph) -> Vec<Dependency> {
 /// A node's own cost, ns a point, without its inputs'.
 pub fn own_cost(graph: &Graph, id: NodeId, model: &CostModel) -> f32 {
     match graph.node(id).kind {
-        NodeKind::Apply(op, _) => op.info().cost,
+        NodeKind::Apply(op, _) => op.info().cost * model.operation_scale,
         NodeKind::Texture(_) => model.texture_ns,
         NodeKind::Table(_) => model.table_ns,
         _ => 0.0,
@@ -105,8 +105,14 @@ fn candidates(network: &Network) -> Vec<NodeId> {
     let is_uv = |id: NodeId| matches!(dependencies[id.index()], Dependency::Uv(_));
     let mut highest = vec![false; graph.nodes().len()];
     let mut mark = |id: NodeId| {
-        if is_uv(id) {
-            highest[whole(graph, id).index()] = true;
+        let node = graph.node(id);
+        // A value too wide for the cache that was put together is its parts.
+        let parts = match node.kind {
+            NodeKind::Combine if node.ty == Ty::F4 => &node.inputs[..],
+            _ => &[id],
+        };
+        for &part in parts.iter().filter(|&&part| is_uv(part)) {
+            highest[whole(graph, part).index()] = true;
         }
     };
     network.outputs().for_each(&mut mark);
@@ -278,4 +284,133 @@ pub fn encoding(graph: &Graph, id: NodeId) -> Encoding {
         .filter(fits)
         .or(derived.filter(fits))
         .unwrap_or(general)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compile::CostModel;
+    use crate::input::{InputKind, Part};
+    use crate::ops::OpCode;
+    use crate::opt::fold::network_of;
+    use crate::vm::Isa;
+
+    fn costs(lookup_ns: f32) -> CostModel {
+        CostModel {
+            lookup_ns,
+            ..CostModel::of(Isa::Avx512)
+        }
+    }
+
+    /// One UV set's coordinate through an operation that costs `series_of_halves`.
+    fn costly(g: &mut Graph, set: u16) -> NodeId {
+        let uv = g.value(InputKind::Uv(set));
+        let (u, v) = (g.component(uv, 0), g.component(uv, 1));
+        g.apply(OpCode::series_of_halves, &[u, v])
+    }
+
+    fn tinted(g: &mut Graph, values: &[NodeId]) -> NodeId {
+        let mut color = g.value(InputKind::Position);
+        for &value in values {
+            color = g.apply(OpCode::vector_scale, &[color, value]);
+        }
+        color
+    }
+
+    #[test]
+    fn dependencies_join() {
+        use Dependency::*;
+        assert_eq!(join(Constant, Uv(3)), Uv(3));
+        assert_eq!(join(Uv(3), Uv(3)), Uv(3));
+        assert_eq!(join(Uv(3), Uv(4)), Surface);
+        assert_eq!(join(View, Uv(4)), View);
+        assert_eq!(join(Path, View), Path);
+    }
+
+    #[test]
+    fn the_highest_node_of_one_set_is_chosen() {
+        let network = network_of(|g| {
+            let a = costly(g, 0);
+            let b = g.apply(OpCode::math_add, &[a, a]);
+            tinted(g, &[b])
+        });
+        let chosen = choose(&network, &costs(0.0));
+        assert_eq!(chosen.len(), 1);
+        let kind = network.graph.node(chosen[0].0).kind;
+        assert_eq!(kind, NodeKind::Apply(OpCode::math_add, 0));
+    }
+
+    #[test]
+    fn two_sets_meet_below_the_choice() {
+        let network = network_of(|g| {
+            let (a, b) = (costly(g, 0), costly(g, 1));
+            let sum = g.apply(OpCode::math_add, &[a, b]);
+            tinted(g, &[sum])
+        });
+        let sets: Vec<u16> = choose(&network, &costs(0.0)).iter().map(|c| c.1).collect();
+        assert_eq!(sets, [0, 1]);
+    }
+
+    #[test]
+    fn constants_inputs_and_views_are_never_chosen() {
+        let network = network_of(|g| {
+            let uv = g.value(InputKind::Uv(0));
+            let u = g.component(uv, 0);
+            let axis = g.input(InputKind::Uv(0), Part::AxisA);
+            let swapped = g.component(axis, 1);
+            let view = g.value(InputKind::Incoming);
+            let seen = g.apply(OpCode::vector_dot, &[view, view]);
+            let two = g.f1(2.0);
+            tinted(g, &[u, swapped, seen, two])
+        });
+        assert_eq!(choose(&network, &costs(0.0)), []);
+    }
+
+    #[test]
+    fn a_look_up_must_be_cheaper_than_what_it_saves() {
+        let network = network_of(|g| {
+            let a = costly(g, 0);
+            tinted(g, &[a])
+        });
+        let cost = OpCode::series_of_halves.info().cost;
+        assert_eq!(choose(&network, &costs(cost * 0.9)).len(), 1);
+        assert_eq!(choose(&network, &costs(cost * 1.1)).len(), 0);
+    }
+
+    #[test]
+    fn what_the_rest_needs_anyway_saves_nothing() {
+        // The rest needs `a`, which is too cheap to cache; `b` adds little to it.
+        let network = network_of(|g| {
+            let a = costly(g, 0);
+            let b = g.apply(OpCode::math_add, &[a, a]);
+            tinted(g, &[a, b])
+        });
+        let cost = OpCode::series_of_halves.info().cost;
+        assert_eq!(choose(&network, &costs(0.0)).len(), 2);
+        assert_eq!(choose(&network, &costs(cost * 0.7)).len(), 0);
+    }
+
+    #[test]
+    fn a_wide_value_is_cached_in_two_parts() {
+        let network = network_of(|g| {
+            let uv = g.value(InputKind::Uv(0));
+            let place = g.combine(&[uv, uv]);
+            let table = g.table(crate::graph::Table {
+                rows: vec![vec![0.0, 1.0]; 4],
+                interpolate: true,
+                extrapolate: false,
+            });
+            let u = g.component(place, 0);
+            let wide = g.look_up(table, u);
+            let height = g.value(InputKind::Pointiness);
+            let mortar = g.apply(OpCode::brick_mortar, &[wide, height, height, height]);
+            tinted(g, &[mortar])
+        });
+        let network = crate::opt::settle(split_wide(&network), crate::opt::Optimise::Nothing, 1);
+        let types: Vec<Ty> = choose(&network, &costs(0.0))
+            .iter()
+            .map(|c| network.graph.ty(c.0))
+            .collect();
+        assert_eq!(types, [Ty::F3, Ty::F1]);
+    }
 }

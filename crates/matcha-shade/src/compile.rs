@@ -4,12 +4,15 @@ use crate::cacheability;
 use crate::emit::emit;
 use crate::graph::NodeId;
 use crate::material::MaterialGraph;
-use crate::opt::{self, Network};
+use crate::opt::{self, Network, Optimise};
 use crate::program::{Program, ProgramError};
+use crate::vm::Isa;
 
 /// Estimated costs, ns a point in lanes, of what is not an operation of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CostModel {
+    /// What the table's costs (measured with AVX-512) are multiplied by.
+    pub operation_scale: f32,
     /// A look-up in the material cache, batched. A node is cached if it costs more.
     /// With 0 every highest node is cached, as in the paper.
     pub lookup_ns: f32,
@@ -19,13 +22,29 @@ pub struct CostModel {
     pub table_ns: f32,
 }
 
-impl Default for CostModel {
-    fn default() -> Self {
+impl CostModel {
+    /// Costs on an instruction set. The scales are the ratios of the networks in
+    /// `docs/results/machine.md`.
+    pub fn of(isa: Isa) -> Self {
+        let operation_scale = match isa {
+            Isa::Avx512 => 1.0,
+            Isa::Avx2 => 1.9,
+            Isa::Baseline => 10.0,
+            Isa::Scalar => 25.0,
+        };
         CostModel {
+            operation_scale,
             lookup_ns: 25.0,
             texture_ns: 80.0,
             table_ns: 3.0,
         }
+    }
+}
+
+impl Default for CostModel {
+    /// Of the processor's best instruction set, which is the one that a machine uses.
+    fn default() -> Self {
+        CostModel::of(Isa::best())
     }
 }
 
@@ -34,8 +53,8 @@ impl Default for CostModel {
 pub struct Options {
     /// Whether cacheable nodes get regions.
     pub cache: bool,
-    /// Whether the graph is optimised; off only in tests.
-    pub optimise: bool,
+    /// How far the graph is optimised.
+    pub optimise: Optimise,
     /// Costs.
     pub cost: CostModel,
 }
@@ -44,7 +63,7 @@ impl Default for Options {
     fn default() -> Self {
         Options {
             cache: true,
-            optimise: true,
+            optimise: Optimise::default(),
             cost: CostModel::default(),
         }
     }
@@ -77,26 +96,14 @@ pub struct Compiled {
 
 /// Compiles a material.
 pub fn compile(material: &MaterialGraph, options: &Options) -> Result<Compiled, ProgramError> {
-    let (mut network, passes) = if options.optimise {
-        opt::optimise(material)
-    } else {
-        let network = opt::flatten::run(material);
-        let statistics = network.statistics("flatten");
-        (network, vec![statistics])
-    };
+    let (mut network, passes) = opt::optimise(material, options.optimise);
     let cached = if options.cache {
         network = cacheability::split_wide(&network);
         cacheability::choose(&network, &options.cost)
     } else {
         Vec::new()
     };
-    let program = emit(
-        &network,
-        &cached,
-        &options.cost,
-        &material.name,
-        material.kind,
-    )?;
+    let program = emit(&network, &cached, options, &material.name, material.kind)?;
     Ok(Compiled {
         program,
         network,

@@ -5,7 +5,7 @@ mod schedule;
 mod texel;
 
 use crate::cacheability::{self, encoding};
-use crate::compile::CostModel;
+use crate::compile::Options;
 use crate::graph::{Graph, NodeId, NodeKind};
 use crate::input::{Input, InputKind, Part};
 use crate::material::MaterialKind;
@@ -21,7 +21,7 @@ use std::collections::HashMap;
 pub fn emit(
     network: &Network,
     cached: &[(NodeId, u16)],
-    model: &CostModel,
+    options: &Options,
     name: &str,
     kind: MaterialKind,
 ) -> Result<Program, ProgramError> {
@@ -29,13 +29,13 @@ pub fn emit(
     emitter.number_inputs(network, cached);
     let mut results = HashMap::new();
     for &(id, set) in cached {
-        let result = emitter.region(&network.graph, id, set, model)?;
+        let result = emitter.region(&network.graph, id, set, options)?;
         results.insert(id, result);
     }
     let outputs = emitter.rest(network, &results)?;
     let (closures, cost) = (
         closure_rows(network),
-        cacheability::network_cost(network, model),
+        cacheability::network_cost(network, &options.cost),
     );
     emitter.finish(outputs, closures, cost, name, kind)
 }
@@ -111,7 +111,7 @@ impl Emitter {
         graph: &Graph,
         id: NodeId,
         set: u16,
-        model: &CostModel,
+        options: &Options,
     ) -> Result<u16, ProgramError> {
         let ty = graph.ty(id);
         let result = slot(self.pinned)?;
@@ -125,7 +125,7 @@ impl Emitter {
             aux: number,
             ..Word::default()
         });
-        let (inner, value) = texel::at_centre(graph, id, set);
+        let (inner, value) = texel::at_centre(graph, id, set, options.optimise);
         let placed = self.pinned + texel::REGISTERS;
         let places = self.words_of(&inner, &[value], &HashMap::new(), placed, false, |input| {
             texel::register(input, texel)
@@ -155,7 +155,7 @@ impl Emitter {
             uv_rows,
             cost: live
                 .iter()
-                .map(|&id| cacheability::own_cost(&inner, id, model))
+                .map(|&id| cacheability::own_cost(&inner, id, &options.cost))
                 .sum(),
         });
         Ok(result)

@@ -112,13 +112,33 @@ pub(crate) fn rewrite(
 /// A pass.
 type Pass = (&'static str, fn(&Network) -> Network);
 
-const PASSES: [Pass; 5] = [
-    ("fold", fold::run),
-    ("simplify", simplify::run),
-    ("common", common_subexpressions::run),
-    ("closures", closures::run),
-    ("dead", dead_code::run),
-];
+/// How far the optimiser may go.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Optimise {
+    /// Not at all: the network as it was lowered.
+    Nothing,
+    /// Every bit of a value stays (but for the sign of zeros, and for what infinities
+    /// and not-a-numbers lead to).
+    Exact,
+    /// A value may change by the operations' rounding, as by taking `b` for
+    /// `a + (b − a)·1`.
+    #[default]
+    Rounding,
+}
+
+fn passes(how: Optimise) -> [Pass; 5] {
+    let simplify: Pass = match how {
+        Optimise::Rounding => ("simplify", simplify::run),
+        _ => ("simplify", simplify::run_exact),
+    };
+    [
+        ("fold", fold::run),
+        simplify,
+        ("common", common_subexpressions::run),
+        ("closures", closures::run),
+        ("dead", dead_code::run),
+    ]
+}
 
 /// Rounds of all passes at most. Each round that changes anything makes the network
 /// smaller; what is left after so many is still correct.
@@ -127,23 +147,29 @@ const ROUNDS: usize = 8;
 /// Flattens a material's closures and runs all passes until nothing changes. The
 /// statistics are of the lowered network and after each pass of the first round, and
 /// of the end.
-pub fn optimise(material: &MaterialGraph) -> (Network, Vec<PassStatistics>) {
+pub fn optimise(material: &MaterialGraph, how: Optimise) -> (Network, Vec<PassStatistics>) {
     let mut network = flatten::run(material);
     let mut statistics = vec![network.statistics("flatten")];
-    for (name, pass) in PASSES {
+    if how == Optimise::Nothing {
+        return (network, statistics);
+    }
+    for (name, pass) in passes(how) {
         network = pass(&network);
         statistics.push(network.statistics(name));
     }
-    network = settle(network, ROUNDS);
+    network = settle(network, how, ROUNDS);
     statistics.push(network.statistics("settled"));
     (network, statistics)
 }
 
 /// Runs the passes until the network stays the same, `rounds` times at most.
-pub(crate) fn settle(mut network: Network, rounds: usize) -> Network {
+pub(crate) fn settle(mut network: Network, how: Optimise, rounds: usize) -> Network {
+    if how == Optimise::Nothing {
+        return network;
+    }
     for _ in 0..rounds {
         let size = (network.graph.nodes().len(), network.closures.len());
-        for (_, pass) in PASSES {
+        for (_, pass) in passes(how) {
             network = pass(&network);
         }
         if size == (network.graph.nodes().len(), network.closures.len()) {

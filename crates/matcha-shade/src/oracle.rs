@@ -24,8 +24,8 @@ pub struct ShadedClosure {
 pub struct Shaded {
     /// Every leaf that the root reaches, in the order of the leaves.
     pub closures: Vec<ShadedClosure>,
-    /// Whether all values on the way were finite: simplification is free to change what
-    /// infinities and not-a-numbers lead to.
+    /// Whether all values on the way were finite, and the weights far from overflow:
+    /// simplification is free to change what infinities and not-a-numbers lead to.
     pub finite: bool,
 }
 
@@ -78,7 +78,12 @@ pub fn shade(
         }
     }
     closures.reverse();
-    Shaded { closures, finite }
+    let mut weights = closures.iter().flat_map(|c: &ShadedClosure| &c.weight);
+    let in_range = weights.all(|w| w.abs() < 1e30);
+    Shaded {
+        finite: finite && in_range,
+        closures,
+    }
 }
 
 /// Every node's value.

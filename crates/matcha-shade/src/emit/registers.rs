@@ -117,8 +117,8 @@ fn last_uses(steps: &[Step], results: &[Source], values: usize) -> Vec<LastUse> 
 /// The first `width` free registers in a row.
 fn first_fit(taken: &mut Vec<bool>, width: usize) -> usize {
     let mut run = 0;
-    for at in 0..taken.len() {
-        run = if taken[at] { 0 } else { run + 1 };
+    for (at, &is_taken) in taken.iter().enumerate() {
+        run = if is_taken { 0 } else { run + 1 };
         if run == width {
             return at + 1 - width;
         }

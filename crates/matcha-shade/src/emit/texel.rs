@@ -4,7 +4,7 @@
 use crate::closure::ClosureKind;
 use crate::graph::{Graph, NodeId, NodeKind};
 use crate::input::{Input, InputKind, Part};
-use crate::opt::{self, Network, WeightedClosure};
+use crate::opt::{self, Network, Optimise, WeightedClosure};
 
 /// Registers that a `lookup` word fills: u, v, size.
 pub(super) const REGISTERS: usize = 3;
@@ -21,7 +21,12 @@ pub(super) fn register(input: Input, texel: u16) -> u16 {
 
 /// A graph with the sub-graph of `root` alone, optimised, and its value there. Axis A
 /// is (size, 0) and axis B (0, size); the size is the first component of axis A.
-pub(super) fn at_centre(graph: &Graph, root: NodeId, set: u16) -> (Graph, NodeId) {
+pub(super) fn at_centre(
+    graph: &Graph,
+    root: NodeId,
+    set: u16,
+    optimise: Optimise,
+) -> (Graph, NodeId) {
     let mut whole = graph.clone();
     // The value is a parameter, so that the passes keep it whatever it is; the closure
     // is only its carrier and must not be black.
@@ -53,7 +58,7 @@ pub(super) fn at_centre(graph: &Graph, root: NodeId, set: u16) -> (Graph, NodeId
         }
         _ => graph.push_node(node),
     });
-    let inner = opt::settle(inner, 4);
+    let inner = opt::settle(inner, optimise, 4);
     let value = inner.closures[0].params[0];
     (inner.graph, value)
 }

@@ -74,7 +74,7 @@ mod tests {
     use super::*;
     use crate::closure::ClosureKind;
     use crate::graph::Span;
-    use crate::opt::{ROUNDS, settle};
+    use crate::opt::{Optimise, ROUNDS, settle};
 
     fn leaf(
         material: &mut MaterialGraph,
@@ -88,7 +88,7 @@ mod tests {
     }
 
     fn weights(material: &MaterialGraph) -> Vec<(ClosureKind, [f32; 4])> {
-        let network = settle(run(material), ROUNDS);
+        let network = settle(run(material), Optimise::Exact, ROUNDS);
         let value = |id| {
             network
                 .graph
