@@ -1,6 +1,6 @@
-"""Writes what Blender's AgX makes of colours, as a test's reference.
+"""Writes what a view transform of Blender's makes of colours, as a test's reference.
 
-    python view_reference.py OUT.csv        (a Python with bpy and numpy)
+    python view_reference.py AgX OUT.csv        (a Python with bpy and numpy)
 """
 
 import os
@@ -24,14 +24,14 @@ def colours():
     return (mixed * 2.0**stops).astype(np.float32)
 
 
-def main(out):
+def main(view, out):
     linear = colours()
     image = bpy.data.images.new("colours", SIDE, SIDE, float_buffer=True)
     rgba = np.ones((SIDE * SIDE, 4), np.float32)
     rgba[:, :3] = linear
     image.pixels.foreach_set(rgba.ravel())
     scene = bpy.context.scene
-    scene.view_settings.view_transform = "AgX"
+    scene.view_settings.view_transform = view
     scene.view_settings.look = "None"
     settings = scene.render.image_settings
     settings.file_format, settings.color_mode, settings.color_depth = "PNG", "RGB", "16"
@@ -49,4 +49,4 @@ def main(out):
             file.write(",".join([f"{x:.6g}" for x in a] + [f"{x:.2f}" for x in b]) + "\n")
 
 
-main(sys.argv[-1])
+main(*sys.argv[-2:])

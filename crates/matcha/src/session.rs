@@ -1,6 +1,6 @@
 //! Rendering in slices of samples, watched and stoppable.
 
-use crate::arguments::{Cache, Options, SceneArguments};
+use crate::arguments::{Cache, Device, Options, SceneArguments};
 use crate::interrupt;
 use crate::loading;
 use crate::picture::view::View;

@@ -75,25 +75,16 @@ impl Shown {
 
     fn figure(&self, report: &Report) -> RgbImage {
         let [without, with, difference, nodes] = report.captions();
-        let mut heat_map = self.heat_map.clone();
-        figure::draw_heat_scale(&mut heat_map);
+        let panel = |picture: &RgbImage, lines, heat| Panel {
+            picture: picture.clone(),
+            lines,
+            heat,
+        };
         figure::compose(&[
-            Panel {
-                picture: self.without.clone(),
-                lines: without,
-            },
-            Panel {
-                picture: self.with.clone(),
-                lines: with,
-            },
-            Panel {
-                picture: self.difference.clone(),
-                lines: difference,
-            },
-            Panel {
-                picture: heat_map,
-                lines: nodes,
-            },
+            panel(&self.without, without, false),
+            panel(&self.with, with, false),
+            panel(&self.difference, difference, false),
+            panel(&self.heat_map, nodes, true),
         ])
     }
 }

@@ -13,6 +13,8 @@ pub struct Panel {
     pub picture: RgbImage,
     /// Title, then measurements.
     pub lines: Vec<String>,
+    /// A heat map: gets a bar of its colours with the ends' numbers.
+    pub heat: bool,
 }
 
 /// Widths that a panel is scaled to lie between, pixels.
@@ -20,8 +22,7 @@ const WIDTHS: [u32; 2] = [400, 640];
 const INK: [u8; 3] = [32, 32, 32];
 const PAPER: [u8; 3] = [255, 255, 255];
 
-/// Panels side by side, all of the first one's size, with their lines below and the
-/// heat map's scale under the last.
+/// Panels side by side, all of the first one's size, with their lines below.
 pub fn compose(panels: &[Panel]) -> RgbImage {
     let Some(first) = panels.first() else {
         return RgbImage::new(1, 1);
@@ -43,12 +44,11 @@ pub fn compose(panels: &[Panel]) -> RgbImage {
     );
     for (k, panel) in (0u32..).zip(panels) {
         let x = margin + k * (width + margin);
-        imageops::replace(
-            &mut figure,
-            &scale(&panel.picture, width, height),
-            x.into(),
-            margin.into(),
-        );
+        let mut picture = scale(&panel.picture, width, height);
+        if panel.heat {
+            draw_heat_scale(&mut picture);
+        }
+        imageops::replace(&mut figure, &picture, x.into(), margin.into());
         for (line, text) in (0u32..).zip(&panel.lines) {
             let y = margin + height + margin / 2 + line * line_height;
             let pen = Pen {
@@ -63,7 +63,7 @@ pub fn compose(panels: &[Panel]) -> RgbImage {
 
 /// A bar of the heat map's colours with its ends' numbers, laid over the lower edge of a
 /// picture.
-pub fn draw_heat_scale(picture: &mut RgbImage) {
+fn draw_heat_scale(picture: &mut RgbImage) {
     let (width, height) = picture.dimensions();
     let bar = (height / 28).max(3);
     for x in 0..width {
@@ -119,6 +119,7 @@ mod tests {
         Panel {
             picture: RgbImage::from_pixel(480, 270, Rgb(color)),
             lines: lines.iter().map(|&line| line.to_owned()).collect(),
+            heat: false,
         }
     }
 
@@ -142,6 +143,7 @@ mod tests {
             let panel = Panel {
                 picture,
                 lines: vec!["a".repeat(300)],
+                heat: true,
             };
             assert!(compose(&[panel]).width() > 400);
         }

@@ -10,3 +10,4 @@ pub mod text;
 pub mod view;
 
 mod agx;
+mod filmic;

@@ -1,6 +1,6 @@
 //! View transforms: from linear Rec.709 to what an sRGB display is sent.
 
-use super::agx;
+use super::{agx, filmic};
 use matcha_render::scene::ViewSettings;
 use rayon::prelude::*;
 
@@ -11,6 +11,8 @@ enum Transform {
     Standard,
     /// AgX as Blender ships it.
     Agx,
+    /// Filmic as Blender ships it.
+    Filmic,
     /// The numbers themselves, clipped.
     Raw,
 }
@@ -33,6 +35,7 @@ impl View {
         let transform = match settings.transform.as_str() {
             "Standard" => Transform::Standard,
             "AgX" => Transform::Agx,
+            "Filmic" => Transform::Filmic,
             "Raw" => Transform::Raw,
             other => {
                 lacks.push(format!(
@@ -79,6 +82,7 @@ impl View {
         let shown = match self.transform {
             Transform::Standard => exposed.map(srgb),
             Transform::Agx => agx::display(exposed),
+            Transform::Filmic => filmic::display(exposed),
             Transform::Raw => exposed,
         };
         shown.map(|x| {
@@ -116,8 +120,28 @@ pub fn srgb(x: f32) -> f32 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// A transform against a table of linear colours and of what Blender sends a display,
+    /// 0 to 255: equal within 2.
+    pub(in crate::picture) fn check_reference(table: &str, display: impl Fn([f32; 3]) -> [f32; 3]) {
+        assert!(table.lines().count() > 500);
+        for line in table.lines().skip(1) {
+            let n: Vec<f32> = line.split(',').map(|x| x.parse().unwrap()).collect();
+            let ours = display([n[0], n[1], n[2]]).map(|x| x.clamp(0.0, 1.0) * 255.0);
+            for (ours, blender) in ours.iter().zip(&n[3..6]) {
+                assert!((ours - blender).abs() < 2.0, "{line}: {ours}");
+            }
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "0.5,0.5,0.5")]
+    fn a_wrong_reference_is_noticed() {
+        let table = "r,g,b,x,y,z\n".to_owned() + &"0.5,0.5,0.5,191,188,188\n".repeat(600);
+        check_reference(&table, |color| color.map(srgb));
+    }
 
     fn settings(transform: &str) -> ViewSettings {
         ViewSettings {
