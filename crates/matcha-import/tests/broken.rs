@@ -16,7 +16,7 @@ const CASES: &[Case] = &[
     (|f| f.json["accessors"][0]["count"] = json!(u64::MAX),
         "test.glb: accessors[0]: the scene needs 18446744073710 MB from here on, more than the 68 MB allowed"),
     (|f| f.json["accessors"][0] = json!({"componentType": 5126, "type": "VEC3", "count": 4_000_000_000_u64}),
-        "test.glb: accessors[0]: the scene needs 48001 MB from here on, more than the 68 MB allowed"),
+        "test.glb: accessors[0]: the scene needs 48000 MB from here on, more than the 68 MB allowed"),
     (|f| f.json["accessors"][0]["byteOffset"] = json!(8),
         "test.glb: accessors[0]: 3 elements of 12 bytes reach beyond the 36 bytes of buffer view 0"),
     (|f| f.json["accessors"][0]["byteOffset"] = json!(u64::MAX),
@@ -97,30 +97,33 @@ const CASES: &[Case] = &[
         "test.glb: materials[0]: has a factor that is not finite"),
     (|f| { f.json["materials"] = json!([{"emissiveTexture": {"index": 3}}]); f.primitive()["material"] = json!(0); },
         "test.glb: materials[0].emissiveTexture.index: the index is out of range"),
-    (|f| f.json["asset"] = json!(null),
-        "test.glb: JSON: invalid type: null, expected struct Asset at line 1 column 90"),
 ];
 
 #[test]
 fn every_lie_has_its_sentence() {
-    for (number, (break_it, sentence)) in CASES.iter().enumerate() {
+    let mut wrong = Vec::new();
+    for (break_it, sentence) in CASES {
         let mut file = Gltf::triangle();
         break_it(&mut file);
         let found = file.refused();
-        if number == CASES.len() - 1 {
-            assert!(
-                found.starts_with("test.glb: JSON: invalid type: null, expected struct Asset"),
-                "{found}"
-            );
-            continue;
+        if &found != sentence {
+            wrong.push(format!("expected {sentence}\n   found {found}"));
         }
-        assert_eq!(&found, sentence, "case {number}");
-        assert!(!found.contains('\n'), "one sentence is one line");
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(
+        CASES.iter().all(|(_, sentence)| !sentence.contains('\n')),
+        "one sentence is one line"
+    );
 }
 
 #[test]
 fn broken_containers() {
+    let sentence = load(b"{\"asset\": null}").unwrap_err().to_string();
+    assert!(
+        sentence.starts_with("test.glb: JSON: invalid type: null, expected struct Asset"),
+        "{sentence}"
+    );
     let good = Gltf::triangle().glb();
     let refused = |bytes: &[u8]| load(bytes).unwrap_err().to_string();
     assert_eq!(
@@ -155,10 +158,10 @@ fn broken_containers() {
 
 #[test]
 fn a_small_file_cannot_claim_much_memory() {
-    // The same kilobyte read by two hundred thousand primitives.
+    // The same kilobyte read by sixty thousand primitives.
     let mut file = Gltf::triangle();
     let positions = file.floats("VEC3", &[0.25; 300]);
-    let primitives: Vec<_> = (0..200_000)
+    let primitives: Vec<_> = (0..60_000)
         .map(|_| json!({"attributes": {"POSITION": 0, "COLOR_0": positions}}))
         .collect();
     file.json["meshes"][0]["primitives"] = json!(primitives);
