@@ -7,7 +7,7 @@ operations! {
 
     /// Distance and cell of the nearest point in 1 dimension, Euclidean; the place is c + f. Cycles, Voronoi Texture.
     voronoi_f1_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1) -> F2 {
-        cost: 0.30000000000000004, error: 1e-4,
+        cost: 1.7, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_f1_count_1d,
             init: voronoi_ops::voronoi_f1_init,
@@ -19,7 +19,7 @@ operations! {
 
     /// Distance and cell of the nearest point in 1 dimension, any metric. Cycles, Voronoi Texture.
     voronoi_nearest_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
-        cost: 0.6000000000000001, error: 1e-4,
+        cost: 1.3, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_metric_count_1d,
             init: voronoi_ops::voronoi_metric_init,
@@ -31,7 +31,7 @@ operations! {
 
     /// Distance and cell of the second nearest point in 1 dimension, any metric. Cycles, Voronoi Texture.
     voronoi_second_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
-        cost: 0.6000000000000001, error: 1e-4,
+        cost: 1.4, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_metric_count_1d,
             init: voronoi_ops::voronoi_metric_init,
@@ -43,7 +43,7 @@ operations! {
 
     /// Distance to the edge of the nearest point's region in 1 dimension. Cycles, Voronoi Texture.
     voronoi_edge_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
-        cost: 0.36000000000000004, error: 1e-4,
+        cost: 1.7, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_1d,
             init: voronoi_ops::voronoi_edge_init_1d,
@@ -55,7 +55,7 @@ operations! {
 
     /// Half the nearest point's distance to its own nearest in 1 dimension. Cycles, Voronoi Texture.
     voronoi_radius_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
-        cost: 0.36000000000000004, error: 1e-4,
+        cost: 2.1, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_1d,
             init: voronoi_ops::voronoi_edge_init_1d,
@@ -67,19 +67,19 @@ operations! {
 
     /// A cell's colour in 1 dimension. Cycles, Voronoi Texture.
     voronoi_color_1d(c: F3, cw: F1, cell: F1) -> Color {
-        cost: 6.0, error: 0.0,
+        cost: 1.1, error: 0.0,
         eval: voronoi_ops::voronoi_color_1d,
     }
 
     /// A cell's point in 1 dimension. Cycles, Voronoi Texture.
     voronoi_position_1d(c: F3, cw: F1, randomness: F1, cell: F1) -> F4 {
-        cost: 6.0, error: 1e-5,
+        cost: 0.9, error: 1e-5,
         eval: voronoi_ops::voronoi_position_1d,
     }
 
     /// Smooth F1's distance in 1 dimension, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_distance_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
-        cost: 3.0000000000000004, error: 1e-3,
+        cost: 5.2, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_1d,
             init: voronoi_ops::voronoi_smooth_distance_init,
@@ -91,7 +91,7 @@ operations! {
 
     /// Smooth F1's distance in 1 dimension, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_distance_metric_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
-        cost: 3.0000000000000004, error: 1e-3,
+        cost: 5.4, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_1d,
             init: voronoi_ops::voronoi_smooth_distance_init,
@@ -103,7 +103,7 @@ operations! {
 
     /// Smooth F1's color in 1 dimension, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_color_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
-        cost: 3.0000000000000004, error: 1e-3,
+        cost: 8.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_1d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -115,7 +115,7 @@ operations! {
 
     /// Smooth F1's color in 1 dimension, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_color_metric_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
-        cost: 3.0000000000000004, error: 1e-3,
+        cost: 7.9, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_1d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -127,7 +127,7 @@ operations! {
 
     /// Smooth F1's position in 1 dimension, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_position_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
-        cost: 3.0000000000000004, error: 1e-3,
+        cost: 8.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_1d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -139,7 +139,7 @@ operations! {
 
     /// Smooth F1's position in 1 dimension, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_position_metric_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
-        cost: 3.0000000000000004, error: 1e-3,
+        cost: 7.9, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_1d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -151,7 +151,7 @@ operations! {
 
     /// Distance and cell of the nearest point in 2 dimensions, Euclidean; the place is c + f. Cycles, Voronoi Texture.
     voronoi_f1_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1) -> F2 {
-        cost: 1.3499999999999999, error: 1e-4,
+        cost: 7.4, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_f1_count_2d,
             init: voronoi_ops::voronoi_f1_init,
@@ -163,7 +163,7 @@ operations! {
 
     /// Distance and cell of the nearest point in 2 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_nearest_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
-        cost: 2.6999999999999997, error: 1e-4,
+        cost: 53.5, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_metric_count_2d,
             init: voronoi_ops::voronoi_metric_init,
@@ -175,7 +175,7 @@ operations! {
 
     /// Distance and cell of the second nearest point in 2 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_second_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
-        cost: 2.6999999999999997, error: 1e-4,
+        cost: 53.5, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_metric_count_2d,
             init: voronoi_ops::voronoi_metric_init,
@@ -187,7 +187,7 @@ operations! {
 
     /// Distance to the edge of the nearest point's region in 2 dimensions. Cycles, Voronoi Texture.
     voronoi_edge_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
-        cost: 1.6199999999999999, error: 1e-4,
+        cost: 10.4, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_2d,
             init: voronoi_ops::voronoi_edge_init_2d,
@@ -199,7 +199,7 @@ operations! {
 
     /// Half the nearest point's distance to its own nearest in 2 dimensions. Cycles, Voronoi Texture.
     voronoi_radius_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
-        cost: 1.6199999999999999, error: 1e-4,
+        cost: 13.7, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_2d,
             init: voronoi_ops::voronoi_edge_init_2d,
@@ -211,19 +211,19 @@ operations! {
 
     /// A cell's colour in 2 dimensions. Cycles, Voronoi Texture.
     voronoi_color_2d(c: F3, cw: F1, cell: F1) -> Color {
-        cost: 6.0, error: 0.0,
+        cost: 1.4, error: 0.0,
         eval: voronoi_ops::voronoi_color_2d,
     }
 
     /// A cell's point in 2 dimensions. Cycles, Voronoi Texture.
     voronoi_position_2d(c: F3, cw: F1, randomness: F1, cell: F1) -> F4 {
-        cost: 6.0, error: 1e-5,
+        cost: 1.3, error: 1e-5,
         eval: voronoi_ops::voronoi_position_2d,
     }
 
     /// Smooth F1's distance in 2 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_distance_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
-        cost: 13.499999999999998, error: 1e-3,
+        cost: 27.9, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_2d,
             init: voronoi_ops::voronoi_smooth_distance_init,
@@ -235,7 +235,7 @@ operations! {
 
     /// Smooth F1's distance in 2 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_distance_metric_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
-        cost: 13.499999999999998, error: 1e-3,
+        cost: 154.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_2d,
             init: voronoi_ops::voronoi_smooth_distance_init,
@@ -247,7 +247,7 @@ operations! {
 
     /// Smooth F1's color in 2 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_color_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
-        cost: 13.499999999999998, error: 1e-3,
+        cost: 51.6, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_2d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -259,7 +259,7 @@ operations! {
 
     /// Smooth F1's color in 2 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_color_metric_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
-        cost: 13.499999999999998, error: 1e-3,
+        cost: 173.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_2d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -271,7 +271,7 @@ operations! {
 
     /// Smooth F1's position in 2 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_position_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
-        cost: 13.499999999999998, error: 1e-3,
+        cost: 53.2, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_2d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -283,7 +283,7 @@ operations! {
 
     /// Smooth F1's position in 2 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_position_metric_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
-        cost: 13.499999999999998, error: 1e-3,
+        cost: 175.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_2d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -295,7 +295,7 @@ operations! {
 
     /// Distance and cell of the nearest point in 3 dimensions, Euclidean; the place is c + f. Cycles, Voronoi Texture.
     voronoi_f1_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1) -> F2 {
-        cost: 6.75, error: 1e-4,
+        cost: 39.4, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_f1_count_3d,
             init: voronoi_ops::voronoi_f1_init,
@@ -307,7 +307,7 @@ operations! {
 
     /// Distance and cell of the nearest point in 3 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_nearest_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
-        cost: 13.5, error: 1e-4,
+        cost: 208.0, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_metric_count_3d,
             init: voronoi_ops::voronoi_metric_init,
@@ -319,7 +319,7 @@ operations! {
 
     /// Distance and cell of the second nearest point in 3 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_second_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
-        cost: 13.5, error: 1e-4,
+        cost: 210.0, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_metric_count_3d,
             init: voronoi_ops::voronoi_metric_init,
@@ -331,7 +331,7 @@ operations! {
 
     /// Distance to the edge of the nearest point's region in 3 dimensions. Cycles, Voronoi Texture.
     voronoi_edge_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
-        cost: 8.1, error: 1e-4,
+        cost: 48.2, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_3d,
             init: voronoi_ops::voronoi_edge_init_3d,
@@ -343,7 +343,7 @@ operations! {
 
     /// Half the nearest point's distance to its own nearest in 3 dimensions. Cycles, Voronoi Texture.
     voronoi_radius_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
-        cost: 8.1, error: 1e-4,
+        cost: 66.4, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_3d,
             init: voronoi_ops::voronoi_edge_init_3d,
@@ -355,19 +355,19 @@ operations! {
 
     /// A cell's colour in 3 dimensions. Cycles, Voronoi Texture.
     voronoi_color_3d(c: F3, cw: F1, cell: F1) -> Color {
-        cost: 6.0, error: 0.0,
+        cost: 2.1, error: 0.0,
         eval: voronoi_ops::voronoi_color_3d,
     }
 
     /// A cell's point in 3 dimensions. Cycles, Voronoi Texture.
     voronoi_position_3d(c: F3, cw: F1, randomness: F1, cell: F1) -> F4 {
-        cost: 6.0, error: 1e-5,
+        cost: 2.3, error: 1e-5,
         eval: voronoi_ops::voronoi_position_3d,
     }
 
     /// Smooth F1's distance in 3 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_distance_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
-        cost: 67.5, error: 1e-3,
+        cost: 210.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_3d,
             init: voronoi_ops::voronoi_smooth_distance_init,
@@ -379,7 +379,7 @@ operations! {
 
     /// Smooth F1's distance in 3 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_distance_metric_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
-        cost: 67.5, error: 1e-3,
+        cost: 948.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_3d,
             init: voronoi_ops::voronoi_smooth_distance_init,
@@ -391,7 +391,7 @@ operations! {
 
     /// Smooth F1's color in 3 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_color_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
-        cost: 67.5, error: 1e-3,
+        cost: 314.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_3d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -403,7 +403,7 @@ operations! {
 
     /// Smooth F1's color in 3 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_color_metric_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
-        cost: 67.5, error: 1e-3,
+        cost: 996.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_3d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -415,7 +415,7 @@ operations! {
 
     /// Smooth F1's position in 3 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_position_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
-        cost: 67.5, error: 1e-3,
+        cost: 314.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_3d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -427,7 +427,7 @@ operations! {
 
     /// Smooth F1's position in 3 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_position_metric_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
-        cost: 67.5, error: 1e-3,
+        cost: 993.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_3d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -439,7 +439,7 @@ operations! {
 
     /// Distance and cell of the nearest point in 4 dimensions, Euclidean; the place is c + f. Cycles, Voronoi Texture.
     voronoi_f1_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1) -> F2 {
-        cost: 180.0, error: 1e-4,
+        cost: 199.0, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_f1_count_4d,
             init: voronoi_ops::voronoi_f1_init,
@@ -451,7 +451,7 @@ operations! {
 
     /// Distance and cell of the nearest point in 4 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_nearest_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
-        cost: 360.0, error: 1e-4,
+        cost: 786.0, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_metric_count_4d,
             init: voronoi_ops::voronoi_metric_init,
@@ -463,7 +463,7 @@ operations! {
 
     /// Distance and cell of the second nearest point in 4 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_second_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
-        cost: 360.0, error: 1e-4,
+        cost: 785.0, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_metric_count_4d,
             init: voronoi_ops::voronoi_metric_init,
@@ -475,7 +475,7 @@ operations! {
 
     /// Distance to the edge of the nearest point's region in 4 dimensions. Cycles, Voronoi Texture.
     voronoi_edge_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
-        cost: 216.0, error: 1e-4,
+        cost: 227.0, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_4d,
             init: voronoi_ops::voronoi_edge_init_4d,
@@ -487,7 +487,7 @@ operations! {
 
     /// Half the nearest point's distance to its own nearest in 4 dimensions. Cycles, Voronoi Texture.
     voronoi_radius_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
-        cost: 216.0, error: 1e-4,
+        cost: 276.0, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_4d,
             init: voronoi_ops::voronoi_edge_init_4d,
@@ -499,19 +499,19 @@ operations! {
 
     /// A cell's colour in 4 dimensions. Cycles, Voronoi Texture.
     voronoi_color_4d(c: F3, cw: F1, cell: F1) -> Color {
-        cost: 6.0, error: 0.0,
+        cost: 2.5, error: 0.0,
         eval: voronoi_ops::voronoi_color_4d,
     }
 
     /// A cell's point in 4 dimensions. Cycles, Voronoi Texture.
     voronoi_position_4d(c: F3, cw: F1, randomness: F1, cell: F1) -> F4 {
-        cost: 6.0, error: 1e-5,
+        cost: 3.0, error: 1e-5,
         eval: voronoi_ops::voronoi_position_4d,
     }
 
     /// Smooth F1's distance in 4 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_distance_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
-        cost: 1800.0, error: 1e-3,
+        cost: 1635.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_4d,
             init: voronoi_ops::voronoi_smooth_distance_init,
@@ -523,7 +523,7 @@ operations! {
 
     /// Smooth F1's distance in 4 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_distance_metric_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
-        cost: 1800.0, error: 1e-3,
+        cost: 10092.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_4d,
             init: voronoi_ops::voronoi_smooth_distance_init,
@@ -535,7 +535,7 @@ operations! {
 
     /// Smooth F1's color in 4 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_color_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
-        cost: 1800.0, error: 1e-3,
+        cost: 2756.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_4d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -547,7 +547,7 @@ operations! {
 
     /// Smooth F1's color in 4 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_color_metric_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
-        cost: 1800.0, error: 1e-3,
+        cost: 14914.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_4d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -559,7 +559,7 @@ operations! {
 
     /// Smooth F1's position in 4 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_position_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
-        cost: 1800.0, error: 1e-3,
+        cost: 2620.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_4d,
             init: voronoi_ops::voronoi_smooth_init,
@@ -571,7 +571,7 @@ operations! {
 
     /// Smooth F1's position in 4 dimensions, any metric. Cycles, Voronoi Texture.
     voronoi_smooth_position_metric_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
-        cost: 1800.0, error: 1e-3,
+        cost: 14967.0, error: 1e-3,
         loop: {
             count: voronoi_ops::voronoi_smooth_count_4d,
             init: voronoi_ops::voronoi_smooth_init,
