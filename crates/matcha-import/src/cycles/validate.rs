@@ -112,9 +112,8 @@ fn curves(curves: &Curves) -> Result<(), String> {
         ));
     }
     let [low, high] = curves.range;
-    if !(low < high && low.is_finite() && high.is_finite())
-        || !curves.tables.iter().all(|t| all_finite(t))
-    {
+    let finite = all_finite(&curves.range) && curves.tables.iter().all(|t| all_finite(t));
+    if !finite || low >= high {
         return Err("its curves are not finite or cover no range".into());
     }
     Ok(())
