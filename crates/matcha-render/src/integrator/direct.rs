@@ -34,7 +34,7 @@ impl Worker {
         for (i, task) in tasks.iter().enumerate() {
             match task.emitter {
                 Emitter::Known => {}
-                Emitter::Light(_) => lights.push(i),
+                Emitter::Light(..) => lights.push(i),
                 Emitter::Surface(hit) => waiting.push((frame.material_of(&hit), hit, i)),
                 Emitter::World => world.push(i),
             }
@@ -47,9 +47,10 @@ impl Worker {
             }
         }
         for i in lights {
-            if let Emitter::Light(emission) = tasks[i].emitter {
+            if let Emitter::Light(emission, distance) = tasks[i].emitter {
                 let direction = tasks[i].ray.direction;
-                tasks[i].value *= self.networks.light_radiance(frame, &emission, direction);
+                tasks[i].value *=
+                    self.networks.light_radiance(frame, &emission, direction, distance);
             }
         }
         waiting.sort_unstable_by_key(|&(material, _, i)| (material, i));

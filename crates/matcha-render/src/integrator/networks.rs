@@ -165,11 +165,17 @@ impl Networks {
         self.colors.extend((0..n).map(|i| radiance(program, &self.outputs, i)));
     }
 
-    /// Radiance of an analytic light in the direction of a ray that meets it.
+    /// Radiance of an analytic light in the direction of a ray that meets it at `distance`.
     ///
     /// A light's tree reads the direction as the world's does: lights have no surface that
     /// programs could ask about.
-    pub fn light_radiance(&mut self, frame: &Frame, emission: &Emission, direction: Vec3) -> Vec3 {
+    pub fn light_radiance(
+        &mut self,
+        frame: &Frame,
+        emission: &Emission,
+        direction: Vec3,
+        distance: f32,
+    ) -> Vec3 {
         let Emission::Tree { light, factor, .. } = *emission else {
             return match *emission {
                 Emission::Constant(radiance) => radiance,
@@ -179,7 +185,7 @@ impl Networks {
         let scene_light = frame.prepared.lights.analytic()[light as usize].scene_light;
         let Some(program) = frame.prepared.light_program(scene_light) else { return factor };
         self.rays.clear();
-        self.rays.push(shadow_info(direction));
+        self.rays.push(PathInfo { ray_length: distance, ..shadow_info(direction) });
         self.run_background(frame, program);
         factor * self.colors[0]
     }

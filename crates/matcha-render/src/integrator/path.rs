@@ -101,16 +101,17 @@ pub struct ScatterKind {
 
 impl Path {
     /// Counts a bounce and sets the ray's kind; marks the path to end at the next surface
-    /// where a limit is reached (limits as in Cycles: total and per kind).
+    /// where a limit is passed (as in Cycles: a limit of 0 still shows direct light, and what
+    /// the last ray meets still adds its emission).
     pub fn count_bounce(&mut self, kind: ScatterKind, settings: &Settings) {
         let kept = flags::FEATURES_DONE | flags::DIFFUSE_ANCESTOR;
         let mut next = self.flags & kept;
         self.bounce += 1;
-        let mut ends = u32::from(self.bounce) >= settings.max_bounces;
+        let mut ends = u32::from(self.bounce) > settings.max_bounces;
         if kind.transmit {
             self.transmission += 1;
             next |= flags::TRANSMIT;
-            ends |= u32::from(self.transmission) >= settings.transmission_bounces;
+            ends |= u32::from(self.transmission) > settings.transmission_bounces;
         } else {
             next |= flags::REFLECT;
             let (count, limit) = if kind.diffuse {
@@ -119,7 +120,7 @@ impl Path {
                 (&mut self.glossy, settings.glossy_bounces)
             };
             *count += 1;
-            ends |= u32::from(*count) >= limit;
+            ends |= u32::from(*count) > limit;
         }
         next |= if kind.diffuse { flags::DIFFUSE | flags::DIFFUSE_ANCESTOR } else { flags::GLOSSY };
         if kind.singular {
@@ -134,7 +135,7 @@ impl Path {
     /// Counts a pass through a transparent surface; false where the limit is reached.
     pub fn count_transparent(&mut self, settings: &Settings) -> bool {
         self.transparent += 1;
-        u32::from(self.transparent) < settings.transparent_bounces.max(1)
+        u32::from(self.transparent) <= settings.transparent_bounces
     }
 
     /// Probability with which Russian roulette lets the path live on.

@@ -164,7 +164,7 @@ fn sample_light(
             Emitter::Surface(Hit { instance, primitive, t: light.distance, u, v })
         }
         Emission::World => Emitter::World,
-        tree @ Emission::Tree { .. } => Emitter::Light(tree),
+        tree @ Emission::Tree { .. } => Emitter::Light(tree, light.distance),
     };
     if value.is_finite() && value.max_element() > 0.0 {
         tasks.push(LightTask {

@@ -55,8 +55,8 @@ pub enum Emitter {
     Surface(Hit),
     /// The world in the ray's direction.
     World,
-    /// An analytic light's node tree, in the ray's direction.
-    Light(Emission),
+    /// An analytic light's node tree, in the ray's direction and at a distance, metres.
+    Light(Emission, f32),
 }
 
 /// Counts of one thread.
@@ -230,18 +230,24 @@ fn add_lights_on_the_way(frame: &Frame, networks: &mut Networks, path: &mut Path
     let mut from = path.t_min;
     while let Some((light, t)) = lights.intersect(origin, direction, from, reach, kind) {
         if let Some(hit) = lights.hit(light, path.mis_origin, path.mis_normal, direction, t) {
-            add_light(frame, networks, path, &hit);
+            add_light(frame, networks, path, &hit, t);
         }
         from = t.next_up();
     }
 }
 
-fn add_light(frame: &Frame, networks: &mut Networks, path: &mut Path, hit: &LightHit) {
+fn add_light(
+    frame: &Frame,
+    networks: &mut Networks,
+    path: &mut Path,
+    hit: &LightHit,
+    distance: f32,
+) {
     if u32::from(path.bounce) > hit.max_bounces {
         return;
     }
     let weight = path.weight_against(hit.pdf);
-    let radiance = networks.light_radiance(frame, &hit.radiance, path.direction);
+    let radiance = networks.light_radiance(frame, &hit.radiance, path.direction, distance);
     let light = path.throughput * radiance * weight;
     path.radiance += clamp_contribution(light, path.light_bounce(), frame.settings());
 }
@@ -254,7 +260,7 @@ fn add_world(frame: &Frame, networks: &mut Networks, path: &mut Path, radiance: 
     let lights = &frame.prepared.lights;
     let (p, n, direction) = (path.mis_origin, path.mis_normal, path.direction);
     for sun in lights.escaped(p, n, direction, path.ray_kind()) {
-        add_light(frame, networks, path, &sun);
+        add_light(frame, networks, path, &sun, f32::INFINITY);
     }
     if frame.world_is_seen_by(path) {
         let weight = path.weight_against(lights.pdf_world(p, n, direction));
