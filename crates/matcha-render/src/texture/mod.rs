@@ -15,6 +15,7 @@ use matcha_shade::graph::{AlphaHandling, TextureRef};
 use matcha_shade::vm::Textures;
 use pyramid::{Level, build_pyramid};
 use rayon::prelude::*;
+use sample::Points;
 use srgb::Decoder;
 
 /// What a look-up gives where there is no image: Cycles' pink.
@@ -98,15 +99,8 @@ impl Textures for TextureSet {
             }
             return;
         };
-        for i in 0..n {
-            let level = if texture.no_footprint {
-                0.0
-            } else {
-                image.level([au[i], av[i]], [bu[i], bv[i]])
-            };
-            let texel = image.filter(&texture, [u[i], v[i]], level);
-            [r[i], g[i], b[i], a[i]] = texel;
-        }
+        let points = Points { uv: [u, v], axes: [[au, av], [bu, bv]] };
+        image.filter_all(&texture, &points, [&mut *r, &mut *g, &mut *b, &mut *a]);
         let handling = if image.opaque { AlphaHandling::Ignored } else { texture.alpha };
         finish(image, handling, &self.decoder, [r, g, b], a);
     }

@@ -8,7 +8,45 @@ use super::pyramid::{Level, Texels};
 use matcha_shade::graph::{Interpolation, TextureRef};
 use matcha_shade::source::Extension;
 
+/// Where a group of points looks an image up; every row has as many numbers as there are points.
+pub(super) struct Points<'a> {
+    /// Texture coordinates.
+    pub(super) uv: [&'a [f32]; 2],
+    /// Their change along both axes of the footprint.
+    pub(super) axes: [[&'a [f32]; 2]; 2],
+}
+
 impl Texture {
+    /// Filters at every point, with the best instructions of this processor; they round alike.
+    pub(super) fn filter_all(&self, texture: &TextureRef, points: &Points, out: [&mut [f32]; 4]) {
+        #[cfg(target_arch = "x86_64")]
+        if std::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has AVX2.
+            return unsafe { self.filter_all_avx2(texture, points, out) };
+        }
+        self.filter_each(texture, points, out);
+    }
+
+    /// With AVX2 rounding down is an instruction and not a call, and bytes widen in one step.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn filter_all_avx2(&self, texture: &TextureRef, points: &Points, out: [&mut [f32]; 4]) {
+        self.filter_each(texture, points, out);
+    }
+
+    #[inline(always)]
+    fn filter_each(&self, texture: &TextureRef, points: &Points, out: [&mut [f32]; 4]) {
+        let n = out[0].len();
+        let [u, v] = points.uv.map(|row| &row[..n]);
+        let [[au, av], [bu, bv]] = points.axes.map(|axis| axis.map(|row| &row[..n]));
+        let [r, g, b, a] = out.map(|row| &mut row[..n]);
+        for i in 0..n {
+            let level =
+                if texture.no_footprint { 0.0 } else { self.level([au[i], av[i]], [bu[i], bv[i]]) };
+            [r[i], g[i], b[i], a[i]] = self.filter(texture, [u[i], v[i]], level);
+        }
+    }
+
     /// Level for a footprint with these half axes in texture coordinates: that of which a texel is
     /// as large as the SHORTER one, so that nothing is blurred beyond the footprint; what the long
     /// one would need more is left to the samples of a pixel. 0 where an axis is zero or no number.
