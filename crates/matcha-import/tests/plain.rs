@@ -383,7 +383,7 @@ fn materials_with_their_extensions() {
     file.json["materials"] = json!([{
         "name": "Paint", "alphaMode": "MASK", "alphaCutoff": 0.25, "emissiveFactor": [1, 0, 0],
         "normalTexture": {"index": 0, "scale": 0.5,
-            "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}},
+            "extensions": {"KHR_texture_transform": {"offset": [0.25, 0.5], "rotation": 0.5, "scale": [2, 3]}}},
         "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0.1, "roughnessFactor": 0.2,
             "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0, "texCoord": 1}},
         "extensions": {
@@ -405,7 +405,10 @@ fn materials_with_their_extensions() {
     let rough = material.metallic_roughness_texture.unwrap();
     let (normal, strength) = material.normal_texture.unwrap();
     assert_eq!(base.extension, Extension::Extend);
-    assert_eq!((strength, normal.transform.2), (0.5, Vec2::splat(2.0)));
+    assert_eq!(
+        (strength, normal.transform),
+        (0.5, (Vec2::new(0.25, 0.5), 0.5, Vec2::new(2.0, 3.0)))
+    );
     assert_eq!(scene.uv_names[base.uv as usize], "TEXCOORD_0");
     assert_eq!(scene.uv_names[rough.uv as usize], "TEXCOORD_1");
     let (color, data) = (

@@ -78,7 +78,7 @@ impl<'a> Textures<'a> {
         Ok(GltfTexture {
             image: self.image(document, image, reference.color),
             uv: uv_names.intern(&format!("TEXCOORD_{set}"))?,
-            transform: transform_v_up(reference.transform, &place)?,
+            transform: transform(reference.transform, &place)?,
             extension,
         })
     }
@@ -158,10 +158,8 @@ fn wrap(sampler: &Sampler, place: &str, report: &mut Report) -> Extension {
     s
 }
 
-/// `KHR_texture_transform` is `uv' = offset + R S uv` with v down and
-/// `R = (cos, sin; -sin, cos)`. With v up on both sides, `v → 1 - v`, the same map has the
-/// rotation counter-clockwise and the offset `(o_u + sin·s_v, 1 - o_v - cos·s_v)`.
-fn transform_v_up(transform: Option<&TextureTransform>, place: &str) -> Checked<(Vec2, f32, Vec2)> {
+/// `KHR_texture_transform` as the file has it, in glTF's coordinates with v down.
+fn transform(transform: Option<&TextureTransform>, place: &str) -> Checked<(Vec2, f32, Vec2)> {
     let Some(transform) = transform else {
         return Ok((Vec2::ZERO, 0.0, Vec2::ONE));
     };
@@ -173,44 +171,5 @@ fn transform_v_up(transform: Option<&TextureTransform>, place: &str) -> Checked<
     if !(offset.is_finite() && scale.is_finite() && angle.is_finite()) {
         return Err(Fault::new(place, "its KHR_texture_transform is not finite"));
     }
-    let (sin, cos) = angle.sin_cos();
-    Ok((
-        Vec2::new(offset.x + sin * scale.y, 1.0 - offset.y - cos * scale.y),
-        angle,
-        scale,
-    ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use gltf::json::extensions::texture::{
-        TextureTransformOffset, TextureTransformRotation, TextureTransformScale,
-    };
-
-    /// The map of the extension's text, on coordinates with v down.
-    fn as_specified(t: &TextureTransform, uv: Vec2) -> Vec2 {
-        let (sin, cos) = t.rotation.0.sin_cos();
-        let s = uv * Vec2::from_array(t.scale.0);
-        Vec2::from_array(t.offset.0) + Vec2::new(cos * s.x + sin * s.y, -sin * s.x + cos * s.y)
-    }
-
-    #[test]
-    fn a_transform_means_the_same_with_v_up() {
-        let t = TextureTransform {
-            offset: TextureTransformOffset([0.3, -0.2]),
-            rotation: TextureTransformRotation(0.7),
-            scale: TextureTransformScale([2.0, 0.5]),
-            ..Default::default()
-        };
-        let (offset, angle, scale) = transform_v_up(Some(&t), "x").unwrap();
-        let flip = |uv: Vec2| Vec2::new(uv.x, 1.0 - uv.y);
-        for uv in [Vec2::ZERO, Vec2::ONE, Vec2::new(0.2, 0.9)] {
-            let (sin, cos) = angle.sin_cos();
-            let s = scale * uv;
-            let up = offset + Vec2::new(cos * s.x - sin * s.y, sin * s.x + cos * s.y);
-            assert!((up - flip(as_specified(&t, flip(uv)))).length() < 1e-6);
-        }
-        assert_eq!(transform_v_up(None, "x").unwrap().0, Vec2::ZERO);
-    }
+    Ok((offset, angle, scale))
 }
