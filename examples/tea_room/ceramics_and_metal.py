@@ -33,7 +33,7 @@ def tenmoku(g):
     broad, fine, mixed = g.use(cloudy, uv, 16.0)
     streak = g.noise(g.place(uv, (70.0, 7.0, 1.0)), 1.0, 5.0, 0.6, 0.4)
     hare = g.remap(streak, 0.4, 0.7, smooth=True)
-    glaze = g.ramp(hare * 0.6 + mixed * 0.4, [(0.15, (0.012, 0.008, 0.007)), (0.45, (0.055, 0.020, 0.010)), (0.7, (0.21, 0.075, 0.022)), (0.95, (0.42, 0.20, 0.06))])
+    glaze = g.ramp(hare * 0.35 + mixed * 0.55, [(0.15, (0.012, 0.008, 0.007)), (0.45, (0.055, 0.020, 0.010)), (0.7, (0.21, 0.075, 0.022)), (0.95, (0.42, 0.20, 0.06))])
     spots = g.voronoi(uv, 150.0)
     silver = g.remap(spots, 0.30, 0.22) * g.remap(broad, 0.48, 0.6)
     glaze = g.mix(silver, glaze, (0.28, 0.30, 0.31))
@@ -113,7 +113,7 @@ def copper(g):
 def iron(g):
     """Cast iron, black where it is handled, rust elsewhere."""
     uv = g.uv()
-    color, mask, height = g.use(rust, uv, 11.0, 0.56)
+    color, mask, height = g.use(rust, uv, 11.0, 0.47)
     broad, fine, mixed = g.use(cloudy, uv, 20.0)
     bare = g.ramp(mixed, [(0.3, (0.035, 0.033, 0.034)), (0.6, (0.085, 0.08, 0.08)), (0.8, (0.16, 0.15, 0.15))])
     cast = g.noise(uv, 240.0, 3.0, 0.65)

@@ -11,10 +11,10 @@ def leather(g):
     uv = g.uv()
     height, creases = g.use(leather_folds, uv, 260.0)
     broad, fine, mixed = g.use(cloudy, uv, 5.0)
-    hide = g.ramp(mixed, [(0.3, (0.115, 0.035, 0.014)), (0.52, (0.215, 0.072, 0.026)), (0.72, (0.32, 0.125, 0.048))])
+    hide = g.ramp(mixed, [(0.3, (0.075, 0.022, 0.009)), (0.52, (0.145, 0.045, 0.017)), (0.72, (0.23, 0.082, 0.031))])
     hide = g.mix(g.remap(height, 0.0, 0.5, 0.5, 0.0), hide, (0.05, 0.016, 0.008))
     rubbed = g.use(grime, uv, 4.0, 0.42)
-    hide = g.mix(rubbed * 0.4, hide, (0.46, 0.23, 0.105))
+    hide = g.mix(rubbed * 0.4, hide, (0.34, 0.155, 0.068))
     hide = g.mix(creases * 0.5, hide, (0.08, 0.026, 0.012))
     lines = g.use(scratches, uv, 20.0, 0.5)
     hide = g.mix(lines * 0.4, hide, (0.45, 0.24, 0.12))
@@ -50,7 +50,7 @@ def runner(g):
     cloth = g.mix(stain * 0.2, cloth, (0.4, 0.33, 0.22), "MULTIPLY")
     soft = g.noise(uv, 30.0, 3.0)
     normal = g.bump(relief + frayed * 0.3, 0.5, 0.0007, g.bump(soft, 0.2, 0.003))
-    return g.principled(base_color=cloth, roughness=0.9, normal=normal, sheen_weight=0.25, sheen_roughness=0.4, specular_ior_level=0.2)
+    return g.principled(base_color=cloth, roughness=0.9, normal=normal, sheen_weight=0.1, sheen_roughness=0.4, specular_ior_level=0.2)
 
 
 @material("Rush Mat")
@@ -109,18 +109,18 @@ def lantern(g):
     uv = g.uv()
     x, y, _ = g.separate(uv)
     color, thin, fibres = washi(g, uv)
-    rib = g.remap(g.math("PINGPONG", y, 0.0105), 0.0, 0.0022, 1.0, 0.0, smooth=True)
+    rib = g.remap(g.math("PINGPONG", y, 0.024), 0.0, 0.0022, 1.0, 0.0, smooth=True)
     color = g.mix(rib * 0.6, color, (0.30, 0.19, 0.09))
-    height = g.remap(y, 0.02, 0.40)
+    height = g.remap(y, 0.02, 0.33)
     glow = g.curve(height, [(0.0, 0.25), (0.3, 0.85), (0.5, 1.0), (0.75, 0.75), (1.0, 0.2)])
     patch = g.remap(g.noise(uv, 7.0, 3.0), 0.3, 0.7, 0.8, 1.1)
     stamp = g.use(grime, uv, 10.0, 0.2)
     glow = glow * patch * (1.0 - rib * 0.55) * (1.0 - fibres * 0.25)
-    warm = g.mix(glow, (1.0, 0.27, 0.06), (1.0, 0.60, 0.27))
+    warm = g.mix(glow, (1.0, 0.25, 0.05), (1.0, 0.55, 0.20))
     color = g.mix(stamp * 0.15, color, (0.5, 0.36, 0.2))
     skin = g.principled(base_color=color, roughness=0.8, normal=g.bump(rib + fibres * 0.2, 0.3, 0.001))
     through = g.shader("BsdfTranslucent", {"Color": color})
-    light = g.shader("Emission", {"Color": warm, "Strength": glow * 2.6 + thin * 0.25})
+    light = g.shader("Emission", {"Color": warm, "Strength": glow * 1.0 + thin * 0.1})
     return g.add_shader(g.mix_shader(0.4, skin, through), light)
 
 
@@ -187,12 +187,12 @@ def bookcloth(g, dark, light, label_at):
 
 @material("Book Cloth Green")
 def book_green(g):
-    return bookcloth(g, (0.022, 0.060, 0.045), (0.045, 0.105, 0.075), (-0.06, -0.02))
+    return bookcloth(g, (0.022, 0.060, 0.045), (0.045, 0.105, 0.075), (-0.06, 0.575))
 
 
 @material("Book Cloth Red")
 def book_red(g):
-    return bookcloth(g, (0.15, 0.022, 0.016), (0.25, 0.045, 0.028), (-0.045, -0.045))
+    return bookcloth(g, (0.15, 0.022, 0.016), (0.25, 0.045, 0.028), (-0.03, 0.565))
 
 
 @material("Book Pages")
@@ -270,6 +270,6 @@ def tea(g):
 
 @material("Garden View")
 def garden(g):
-    """Light from the picture of a garden, 6 m by 3 m."""
-    picture = g.image(images.packed("garden", images.garden), g.place(g.uv(), (1 / 8.0, 1 / 3.6, 1.0)))
+    """Light from the picture of a garden, 8 m by 3.3 m."""
+    picture = g.image(images.packed("garden", images.garden), g.place(g.uv(), (1 / 8.0, 1 / 3.3, 1.0)))
     return g.shader("Emission", {"Color": g.gamma(picture, 1.15), "Strength": 1.7})

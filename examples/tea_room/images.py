@@ -181,7 +181,7 @@ def garden():
     top = 0.50 + 0.42 * (cloud - 0.5) + 0.05 * leaves
     sky = np.stack([0.98 - 0.12 * y, 0.92 - 0.06 * y, 0.82 + 0.1 * y], axis=2)
     far = np.array([0.64, 0.70, 0.55]) * (0.8 + 0.3 * cloud[:, :, None])
-    near = np.array([0.36, 0.46, 0.22]) * (0.5 + 0.8 * leaves[:, :, None])
+    near = np.array([0.42, 0.47, 0.27]) * (0.5 + 0.8 * leaves[:, :, None])
     mix = lambda a, b, m: a * (1 - m[:, :, None]) + b * m[:, :, None]
     picture = mix(sky, far, np.clip((top - y) / 0.03, 0, 1))
     second = 0.30 + 0.4 * (cloud[:, ::-1] - 0.5) + 0.05 * leaves

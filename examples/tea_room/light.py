@@ -7,9 +7,9 @@ from mathutils import Vector
 
 from . import room
 
-SUN_DIRECTION = Vector((0.80, 0.34, -0.47))
-EYE = Vector((0.74, -1.92, 1.27))
-TARGET = Vector((-0.20, 0.30, 0.93))
+SUN_DIRECTION = Vector((0.68, 0.58, -0.33))
+EYE = Vector((0.72, -1.80, 1.27))
+TARGET = Vector((-0.14, 0.30, 0.92))
 FOCUS = Vector((-0.12, -0.05, 0.80))
 
 
@@ -29,7 +29,7 @@ def light(name, kind, energy, color):
 
 
 def sun():
-    made, data = light("Sun", "SUN", 15.0, (1.0, 0.70, 0.40))
+    made, data = light("Sun", "SUN", 20.0, (1.0, 0.66, 0.36))
     data.angle = math.radians(1.4)
     made.rotation_euler = SUN_DIRECTION.to_track_quat("-Z", "Y").to_euler()
 
@@ -37,12 +37,12 @@ def sun():
 def sky():
     """A soft area outside of the window, a fill from the open side, and a dim world."""
     near, far, low, high = room.WINDOW
-    made, data = light("Sky", "AREA", 48.0, (0.72, 0.85, 1.0))
+    made, data = light("Sky", "AREA", 54.0, (0.72, 0.85, 1.0))
     data.shape, data.size, data.size_y = "RECTANGLE", far - near, high - low
     made.location = (room.LEFT - 0.35, (near + far) / 2, (low + high) / 2 + 0.15)
     made.rotation_euler = Vector((1, 0.0, -0.25)).to_track_quat("-Z", "Y").to_euler()
     made.visible_camera = False
-    made, data = light("Fill", "AREA", 14.0, (1.0, 0.90, 0.80))
+    made, data = light("Fill", "AREA", 9.0, (1.0, 0.90, 0.80))
     data.shape, data.size, data.size_y = "RECTANGLE", 2.4, 1.6
     made.location = (0.9, -2.55, 1.9)
     made.rotation_euler = Vector((-0.2, 1, -0.3)).to_track_quat("-Z", "Y").to_euler()
@@ -62,7 +62,7 @@ def camera():
     bpy.context.scene.camera = made
     aim = TARGET - EYE
     made.location, made.rotation_euler = EYE, aim.to_track_quat("-Z", "Y").to_euler()
-    data.lens, data.sensor_width = 33.0, 36.0
+    data.lens, data.sensor_width = 33.5, 36.0
     data.dof.use_dof = True
     data.dof.focus_distance = (FOCUS - EYE).dot(aim.normalized())
     data.dof.aperture_fstop = 4.0

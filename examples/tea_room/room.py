@@ -11,7 +11,7 @@ from . import wood_and_walls as wood
 from .shapes import again, box, cushion, lathe, panel, put, sheet, tube
 
 LEFT, RIGHT, BACK, FRONT, TOP = -1.4, 2.1, 1.75, -2.6, 2.5
-WINDOW = (-0.75, 1.2, 0.86, 2.12)  # on the left wall: y from, y to, z from, z to
+WINDOW = (-2.2, 1.2, 0.86, 2.12)  # on the left wall: y from, y to, z from, z to
 
 
 def build():
@@ -50,7 +50,8 @@ def shell():
         put(panel("Reveal", width, high - low, plaster), (x, y, z), turn)
     put(panel("Reveal top", thick, far - near, plaster), (LEFT - thick, far, high), tilt=(90, 0))
     # Outside: closes the wall against light, and is what the window looks at.
-    put(panel("Garden", 8.0, 3.6, soft.garden()), (-6.0, -1.5, -0.6), 90)
+    garden = put(panel("Garden", 8.0, 3.3, soft.garden()), (-6.0, -1.5, -0.6), 90)
+    garden.visible_diffuse = False  # the sky's area light stands for it
 
 
 def timbers():
@@ -70,27 +71,27 @@ def window():
     near, far, low, high = WINDOW
     x = LEFT - 0.07
     middle_y, middle_z = (near + far) / 2, (low + high) / 2
-    sill = put(box("Sill", (0.30, far - near + 0.12, 0.04), wood.oak(), 0.006, 11), (LEFT - 0.03, middle_y, low - 0.0))
+    put(box("Sill", (0.30, far - near + 0.12, 0.04), wood.oak(), 0.006, 11), (LEFT - 0.03, middle_y, low))
     put(box("Lintel", (0.12, far - near, 0.07), frame, 0.005, 12), (x, middle_y, high - 0.035))
     upright = put(box("Jamb", (0.12, 0.06, high - low), frame, 0.005, 13), (x, near + 0.03, middle_z))
     again(upright, (x, far - 0.03, middle_z))
-    again(upright, (x, 0.42, middle_z), scale=1.0)
+    again(upright, (x, 0.78, middle_z))
     # Open lattice in front, papered lattice behind.
     bar_height = high - low - 0.1
-    bar = put(box("Bar", (0.026, 0.024, bar_height), frame, 0.003, 14), (x, near + 0.36, middle_z))
-    for y in (near + 0.36, near + 0.66, near + 0.92, 0.62, 0.80, 0.98):
-        again(bar, (x, y, middle_z)) if y != near + 0.36 else None
-    rung = put(box("Rung", (0.024, 1.12, 0.022), frame, 0.003, 15), (x, near + 0.60, low + 0.42))
-    again(rung, (x, near + 0.60, low + 0.84))
-    short = put(box("Short rung", (0.024, 0.70, 0.02), frame, 0.003, 16), (x, 0.80, low + 0.25))
+    bar = put(box("Bar", (0.026, 0.024, bar_height), frame, 0.003, 14), (x, 0.92, middle_z))
+    open_bars = 7
+    for y in (1.04, *(near + (0.78 - near) * n / (open_bars + 1) for n in range(1, open_bars + 1))):
+        again(bar, (x, y, middle_z))
+    rung = put(box("Rung", (0.024, 0.78 - near, 0.022), frame, 0.003, 15), (x, (0.78 + near) / 2, low + 0.42))
+    again(rung, (x, (0.78 + near) / 2, low + 0.84))
+    short = put(box("Short rung", (0.024, 0.40, 0.02), frame, 0.003, 16), (x, 0.98, low + 0.25))
     for n in range(2, 5):
-        again(short, (x, 0.80, low + 0.25 * n))
-    put(panel("Shoji", 0.72, high - low - 0.06, paper), (x - 0.02, 0.44, low + 0.02), 90)
-    return sill
+        again(short, (x, 0.98, low + 0.25 * n))
+    put(panel("Shoji", 0.38, high - low - 0.06, paper), (x - 0.02, 0.79, low + 0.02), 90)
 
 
 def shelf():
-    board = put(box("Shelf", (1.10, 0.20, 0.032), wood.oak(), 0.005, 21), (0.02, BACK - 0.10, 1.40))
+    put(box("Shelf", (1.10, 0.20, 0.032), wood.oak(), 0.005, 21), (0.02, BACK - 0.10, 1.40))
     bracket = put(box("Bracket", (0.035, 0.16, 0.05), wood.beam(), 0.006, 22), (-0.40, BACK - 0.08, 1.36))
     again(bracket, (0.44, BACK - 0.08, 1.36))
     top = 1.416
@@ -112,7 +113,6 @@ def shelf():
     put(bottle, (0.33, BACK - 0.11, top), 70)
     put(lathe("Weight", [(0, 0), (0.03, 0), (0.034, 0.004), (0.034, 0.03), (0.03, 0.036), (0.012, 0.04), (0.014, 0.055), (0, 0.062)],
               hard.iron(), 28, 4), (0.47, BACK - 0.12, top))
-    return board
 
 
 def standing_book(at, thick, height, depth, turn, which):
@@ -121,12 +121,11 @@ def standing_book(at, thick, height, depth, turn, which):
     x, y, z = at
     lean = (0, turn)
     seed = round(x * 1000)
-    spine = put(box("Spine", (thick, 0.006, height), cover, 0.002, seed), (x, y - depth / 2, z + height / 2), tilt=lean)
+    put(box("Spine", (thick, 0.006, height), cover, 0.002, seed), (x, y - depth / 2, z + height / 2), tilt=lean)
     for side in (-1, 1):
         put(box("Board", (0.003, depth, height), cover, 0.001, seed + side),
             (x + side * (thick / 2 - 0.0015), y, z + height / 2), tilt=lean)
     put(box("Leaves", (thick - 0.006, depth - 0.012, height - 0.008), soft.pages(), 0, seed), (x, y, z + height / 2), tilt=lean)
-    return spine
 
 
 def hanging_scroll():
@@ -141,16 +140,16 @@ def hanging_scroll():
 
 
 def lantern():
-    ribs = lambda angle, z: 1.0 - 0.018 * np.abs(np.cos(z * math.pi / 0.021)) + 0 * angle
-    paper = lathe("Lantern", [(0.075, 0.0), (0.12, 0.025), (0.158, 0.085), (0.172, 0.165), (0.158, 0.25), (0.12, 0.31), (0.075, 0.335)],
-                  soft.lantern(), 48, 12, ribs)
-    at = (0.63, 1.02, 1.50)
+    ribs = lambda angle, z: 1.0 - 0.018 * np.abs(np.cos(z * math.pi / 0.042)) + 0 * angle
+    paper = lathe("Lantern", [(0.06, 0.0), (0.10, 0.02), (0.132, 0.07), (0.145, 0.14), (0.132, 0.21), (0.10, 0.26), (0.06, 0.28)],
+                  soft.lantern(), 36, 7, ribs)
+    at = (0.70, 1.15, 1.315)
     put(paper, at)
-    ring = lathe("Lantern ring", [(0.066, 0), (0.078, 0), (0.080, 0.006), (0.080, 0.02), (0.076, 0.024), (0.066, 0.02), (0.066, 0.0)],
+    ring = lathe("Lantern ring", [(0.052, 0), (0.063, 0), (0.065, 0.006), (0.065, 0.018), (0.061, 0.022), (0.052, 0.018), (0.052, 0.0)],
                  wood.lacquer(), 36, 2)
     put(ring, (at[0], at[1], at[2] - 0.014))
-    again(ring, (at[0], at[1], at[2] + 0.328))
-    put(tube("Cord", [(0, 0, 0.33), (0, 0, 0.7), (0, 0, 1.0)], [0.004] * 3, wood.beam(), 8, 2), at)
+    again(ring, (at[0], at[1], at[2] + 0.272))
+    put(tube("Cord", [(0, 0, 0.28), (0, 0, 0.7), (0, 0, 1.1)], [0.004] * 3, wood.beam(), 8, 2), at)
 
 
 def chair():

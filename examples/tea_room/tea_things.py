@@ -24,6 +24,7 @@ def build():
     sweets()
     caddy()
     napkin()
+    place_mat()
 
 
 def on(x, y, z=0.0):
@@ -107,11 +108,11 @@ def bowl_and_whisk():
     bowl = lathe("Tea bowl", [(0, 0.006), (0.030, 0.005), (0.032, 0), (0.036, 0.001), (0.038, 0.010), (0.058, 0.020), (0.066, 0.045),
                               (0.068, 0.075), (0.067, 0.083), (0.063, 0.085), (0.061, 0.078), (0.060, 0.05), (0.050, 0.026), (0, 0.016)],
                  hard.raku(), 56, 4, wobble)
-    put(bowl, on(0.36, -0.17), 200)
-    put(lathe("Matcha", [(0.0605, 0.0), (0.03, 0.0), (0, 0.0)], soft.tea(), 40, 3), on(0.36, -0.17, 0.056))
-    whisk(on(0.53, -0.02))
+    put(bowl, on(0.44, -0.14, 0.003), 200)
+    put(lathe("Matcha", [(0.0605, 0.0), (0.03, 0.0), (0, 0.0)], soft.tea(), 40, 3), on(0.44, -0.14, 0.059))
+    whisk(on(0.585, -0.06, 0.003))
     scoop = [(0, 0, 0.004), (0.06, 0, 0.005), (0.12, 0, 0.004), (0.155, 0, 0.005), (0.172, 0, 0.014)]
-    put(tube("Scoop", scoop, [0.004, 0.0035, 0.004, 0.006, 0.004], wood.bamboo(), 10, 5, flat=0.9), on(0.40, -0.325), 24)
+    put(tube("Scoop", scoop, [0.004, 0.0035, 0.004, 0.006, 0.004], wood.bamboo(), 10, 5, flat=0.9), on(0.43, -0.275, 0.003), 12)
 
 
 def whisk(at):
@@ -204,4 +205,12 @@ def napkin():
         size = 0.15 - 0.003 * layer
         z = 0.002 + 0.0035 * layer + 0.0025 * np.sin(u * 7 + layer) * np.sin(v * 5) * (layer + 1) * 0.4
         points = np.stack([(u - 0.5) * size, (v - 0.5) * size, z], axis=2)
-        put(sheet("Napkin", points, np.stack([u, v], axis=2) * size + layer * 0.2, soft.linen()), on(0.57, 0.16 - 0.35 + 0.02 * 0), -18 + layer * 2)
+        put(sheet("Napkin", points, np.stack([u, v], axis=2) * size + layer * 0.2, soft.linen()), on(0.22, -0.28), -18 + layer * 2)
+
+
+def place_mat():
+    """A rush mat under the bowl, its edges a little raised."""
+    v, u = np.meshgrid(np.linspace(-0.5, 0.5, 14), np.linspace(-0.5, 0.5, 18), indexing="ij")
+    z = 0.003 + 0.004 * np.abs(u * 2) ** 6 + 0.002 * np.abs(v * 2) ** 8
+    points = np.stack([u * 0.36, v * 0.27, z], axis=2)
+    put(sheet("Place mat", points, np.stack([u * 0.36, v * 0.27], axis=2), soft.rush()), on(0.485, -0.15), -4)

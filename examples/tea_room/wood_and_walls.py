@@ -10,9 +10,9 @@ def plaster(g):
     """Warm trowelled plaster with straw flecks, hairline cracks and a stain."""
     uv = g.uv()
     broad, fine, mixed = g.use(cloudy, uv, 1.6)
-    color = g.ramp(mixed, [(0.3, (0.50, 0.37, 0.235)), (0.5, (0.63, 0.49, 0.33)), (0.7, (0.72, 0.585, 0.42))])
+    color = g.ramp(mixed, [(0.3, (0.42, 0.305, 0.19)), (0.5, (0.53, 0.40, 0.265)), (0.7, (0.62, 0.49, 0.34))])
     trowel = g.noise(g.place(uv, (1.0, 2.6, 1.0), 0.5), 7.0, 4.0, 0.55, 1.4)
-    color = g.mix(g.remap(trowel, 0.4, 0.65, 0.0, 0.3), color, (0.80, 0.68, 0.52))
+    color = g.mix(g.remap(trowel, 0.4, 0.65, 0.0, 0.3), color, (0.70, 0.58, 0.43))
     straw = None
     for turn, move in ((0.4, 0.0), (-0.9, 3.3), (1.5, 6.1)):
         cell = g.voronoi(g.place(uv, (16.0, 150.0, 1.0), turn, (move, move, 0)), 1.0)
@@ -180,7 +180,9 @@ def lacquer(g):
     color = g.mix(rubbed * 0.8, red, (0.012, 0.008, 0.008))
     crest = g.image(images.packed("wave crest", images.wave_crest, True), g.place(uv, (18.0, 18.0, 1.0)))
     crest = g.wire(g.add("ShaderNodeRGBToBW", {0: crest}))
-    band = g.remap(g.math("ABSOLUTE", y - 0.135), 0.022, 0.024, 1.0, 0.0)
+    caddy_band = g.math("ABSOLUTE", y - 0.135)
+    tray_band = g.math("ABSOLUTE", y - 0.35) * 0.6
+    band = g.remap(g.math("MINIMUM", caddy_band, tray_band), 0.022, 0.024, 1.0, 0.0)
     flakes = g.remap(g.noise(uv, 260.0, 2.0), 0.38, 0.46)
     gold = g.math("GREATER_THAN", crest, 0.45) * band * flakes
     gold = gold * g.remap(broad, 0.66, 0.56)
