@@ -26,7 +26,9 @@ pub use self::world::{WorldGrid, WorldMap, WorldRadiance, grid_direction, lumina
 
 use self::escape::{Distant, Share};
 use self::visible::LightBvh;
-use crate::device::light_analytic::{AnalyticLight, light_attenuation, light_direction_sample};
+use crate::device::light_analytic::{
+    AnalyticLight, LIGHT_FAR, light_attenuation, light_direction_sample,
+};
 use crate::device::light_triangle::light_triangle_pdf;
 use crate::device::light_triangle::light_triangle_sample;
 use crate::scene::{Scene, Visibility};
@@ -303,7 +305,7 @@ impl LightSet {
         Some(LightSample {
             light: LightId::Analytic(index),
             wi: sampled.direction,
-            distance: sampled.distance,
+            distance: if sampled.distance < LIGHT_FAR { sampled.distance } else { f32::INFINITY },
             point: sampled.point,
             normal: sampled.normal,
             pdf: sampled.pdf * chosen,

@@ -33,8 +33,8 @@ pub const LIGHT_SUN: u32 = 5;
 /// Sun without extent.
 pub const LIGHT_SHARP_SUN: u32 = 6;
 
-/// Distance that stands for infinitely far.
-pub const LIGHT_FAR: f32 = f32::INFINITY;
+/// Distance that stands for infinitely far: a number, because WGSL has no infinity.
+pub const LIGHT_FAR: f32 = f32::MAX;
 
 /// An analytic light, ready to be sampled.
 #[derive(Clone, Copy, Debug)]

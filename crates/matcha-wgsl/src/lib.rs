@@ -1,0 +1,43 @@
+//! Device code into WGSL, when the project is built.
+//!
+//! Operations, noises, hashes, encodings, closures and light sampling are written once,
+//! in a subset of Rust (`docs/adr/0002-device-code.md` has its rules). The CPU runs them
+//! as they are. This crate reads the same files with `syn` and writes them as WGSL:
+//!
+//! * [`translate`] turns modules of device functions into one [`Source`].
+//! * [`operations`] reads the table of operations and adds a function for each, loops
+//!   included, and [`Operations::dispatch`] the switch over them.
+//! * [`check`] has naga validate the whole, host layers too.
+//!
+//! Every line of a [`Source`] knows the line of Rust that it came from, so that whatever
+//! is wrong, a construct outside of the subset or an error of naga's, is reported as
+//! `file.rs:line: what`.
+//!
+//! # What is promised of a translation
+//!
+//! A function computes what its Rust does, operation by operation and in that order, with
+//! the exceptions that WGSL itself makes: a device may fuse a product and a sum, its
+//! division and square root may be off by 2.5 units in the last place, and it may treat
+//! numbers below 10⁻³⁸ as zero. Nothing is replaced by a builtin that computes something
+//! else: builtins stand in only where they give the same value for every argument.
+
+mod check;
+mod collect;
+mod diagnostic;
+mod emit;
+mod ir;
+mod lower;
+mod names;
+mod operations;
+mod order;
+mod prelude;
+mod source;
+mod translation;
+mod types;
+
+pub use check::check;
+pub use diagnostic::{Diagnostic, Place, Problem, TranslateError};
+pub use operations::{DispatchForm, OperandType, Operation, Operations, operations};
+pub use source::Source;
+pub use translation::{Function, Module, Translation, translate};
+pub use types::Ty;
