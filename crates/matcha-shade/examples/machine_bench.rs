@@ -52,10 +52,11 @@ fn main() {
             row(
                 name,
                 Some(program.words().len()),
-                &times(&program, [0.05, 0.95]),
+                &times(&program, [0.05, 0.95], POINTS),
             );
         }
     }
+    group_sizes(&filter);
     println!(
         "\n| operations, ns a point | table's cost | {} | lanes gain |",
         heads.join(" | ")
@@ -63,8 +64,14 @@ fn main() {
     println!("|---|---|{}---|", "---|".repeat(sets.len()));
     for op in ops::all().filter(|op| op.info().name.contains(&filter)) {
         let domain = op.info().domain;
-        let with = times(&plain(&copies(Some(op)), Optimise::Nothing), domain);
-        let without = times(&plain(&copies(None), Optimise::Nothing), domain);
+        // Few points where one costs much, so that the best of several runs can be taken.
+        let points = if op.info().cost < 5.0 {
+            POINTS
+        } else {
+            POINTS / 16
+        };
+        let with = times(&plain(&copies(Some(op)), Optimise::Nothing), domain, points);
+        let without = times(&plain(&copies(None), Optimise::Nothing), domain, points);
         let each: Vec<f64> = with
             .iter()
             .zip(without)
@@ -79,6 +86,22 @@ fn main() {
             info.cost,
             cells.join(" | ")
         );
+    }
+}
+
+/// The networks over groups of different sizes, with the best instruction set.
+fn group_sizes(filter: &str) {
+    let sizes = [1, 4, 16, 17, 32, 64, 256, 1024, 4096];
+    let heads: Vec<String> = sizes.iter().map(usize::to_string).collect();
+    println!("\n| hits in a group, ns a point | {} |", heads.join(" | "));
+    println!("|---|{}", "---|".repeat(sizes.len()));
+    for (name, material) in networks() {
+        if name.contains(filter) {
+            let program = plain(&material, Optimise::Rounding);
+            let inputs = inputs(&program, [0.05, 0.95], 4096);
+            let each = sizes.map(|n| format!("{:.1}", time(&program, Isa::best(), &inputs, n)));
+            println!("| {name} | {} |", each.join(" | "));
+        }
     }
 }
 
@@ -101,8 +124,15 @@ fn plain(material: &MaterialGraph, optimise: Optimise) -> Program {
 }
 
 /// Nanoseconds a point for each instruction set, the best of several runs.
-fn times(program: &Program, domain: [f32; 2]) -> Vec<f64> {
-    let mut inputs = Rows::new(program.input_rows(), POINTS);
+fn times(program: &Program, domain: [f32; 2], points: usize) -> Vec<f64> {
+    let inputs = inputs(program, domain, points);
+    let sets = Isa::available().into_iter();
+    sets.map(|isa| time(program, isa, &inputs, points))
+        .collect()
+}
+
+fn inputs(program: &Program, domain: [f32; 2], points: usize) -> Rows {
+    let mut inputs = Rows::new(program.input_rows(), points);
     let mut state = 1u32;
     for row in 0..program.input_rows() {
         for x in inputs.row_mut(row) {
@@ -111,23 +141,24 @@ fn times(program: &Program, domain: [f32; 2]) -> Vec<f64> {
             *x = domain[0] + (domain[1] - domain[0]) * unit;
         }
     }
-    Isa::available()
-        .into_iter()
-        .map(|isa| time(program, isa, &inputs))
-        .collect()
+    inputs
 }
 
-fn time(program: &Program, isa: Isa, inputs: &Rows) -> f64 {
+fn time(program: &Program, isa: Isa, inputs: &Rows, points: usize) -> f64 {
     let mut machine = Machine::new(Some(isa));
     let mut out = Rows::default();
     let mut best = f64::INFINITY;
     let begin = Instant::now();
-    let mut runs = 0;
-    while runs < 3 || (runs < 30 && begin.elapsed().as_secs_f64() < 0.01) {
+    let mut tries = 0;
+    // The clock is read once for 64 points or more.
+    let runs = (64 / points).max(1);
+    while tries < 12 || (tries < 60 && begin.elapsed().as_secs_f64() < 0.01) {
         let start = Instant::now();
-        machine.run(program, POINTS, inputs, &NoTextures, None, 0.0, &mut out);
-        best = best.min(start.elapsed().as_nanos() as f64 / POINTS as f64);
-        runs += 1;
+        for _ in 0..runs {
+            machine.run(program, points, inputs, &NoTextures, None, 0.0, &mut out);
+        }
+        best = best.min(start.elapsed().as_nanos() as f64 / (points * runs) as f64);
+        tries += 1;
     }
     best
 }

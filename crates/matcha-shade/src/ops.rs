@@ -444,10 +444,11 @@ macro_rules! kernel {
                             $(<types::$ty as TableType>::get::<N>($arg, lane),)*
                             old,
                         );
+                        // A plain `if` between two numbers that are there: with the hint
+                        // `select_unpredictable` SSE2 is not vectorised.
                         let goes_on = i < counts[lane];
                         for k in 0..$state {
-                            state[k][lane] =
-                                core::hint::select_unpredictable(goes_on, new[k], old[k]);
+                            state[k][lane] = if goes_on { new[k] } else { old[k] };
                         }
                     }
                     i += 1;
