@@ -118,7 +118,8 @@ fn agree(scene: &Scene, accel: &Accel, rays: usize, seed: u64) -> usize {
 
 #[test]
 fn every_way_to_build_agrees_with_brute_force() {
-    for (flat_triangles, pre_split) in [(0, false), (0, true), (150, false), (1 << 20, true)] {
+    for (budget, pre_split) in [(0, false), (0, true), (150, false), (1 << 20, true)] {
+        let flat_triangles = Some(budget);
         let scene = scene(3, 12, 60, 7);
         let options = BuildOptions { flat_triangles, pre_split, ..BuildOptions::default() };
         let mut accel = Accel::build_with(&scene, &options).unwrap();
@@ -172,7 +173,7 @@ fn unsound_triangles_are_dropped() {
     mesh.positions[4] = mesh.positions[3];
     mesh.positions[8].z = f32::INFINITY;
     mesh.positions[9].y = 3e30;
-    for flat_triangles in [0, 1000] {
+    for flat_triangles in [Some(0), Some(1000)] {
         let options = BuildOptions { flat_triangles, ..BuildOptions::default() };
         let accel = Accel::build_with(&scene, &options).unwrap();
         assert_eq!(accel.dropped_triangles(), 4);
@@ -209,7 +210,7 @@ fn a_flattened_or_collapsed_instance_does_no_harm() {
     let mut scene = scene(1, 3, 40, 9);
     scene.instances[1].transform = Affine3A::from_scale(Vec3::new(1.0, 1.0, 0.0));
     scene.instances[2].transform = Affine3A::from_scale(Vec3::ZERO);
-    let options = BuildOptions { flat_triangles: 0, ..BuildOptions::default() };
+    let options = BuildOptions { flat_triangles: Some(0), ..BuildOptions::default() };
     let accel = Accel::build_with(&scene, &options).unwrap();
     accel.validate().unwrap();
     assert!(agree(&scene, &accel, 1000, 4) <= 2);
@@ -230,7 +231,7 @@ fn coincident_triangles_make_no_trouble() {
 #[test]
 fn visibility_and_exclusion_hide() {
     let mut state = 5;
-    for flat_triangles in [0, 1 << 20] {
+    for flat_triangles in [Some(0), None] {
         let mut scene = scene(2, 6, 80, 21);
         scene.instances[0].visibility.camera = false;
         scene.instances[1].visibility.shadow = false;
@@ -326,7 +327,7 @@ proptest! {
     fn random_scenes_agree(seed in 1u64.., meshes in 1usize..4, instances in 1usize..9,
                            triangles in 1usize..70, flat in 0usize..300) {
         let scene = scene(meshes, instances, triangles, seed);
-        let options = BuildOptions { flat_triangles: flat, ..BuildOptions::default() };
+        let options = BuildOptions { flat_triangles: Some(flat), ..BuildOptions::default() };
         let accel = Accel::build_with(&scene, &options).unwrap();
         prop_assert_eq!(accel.validate(), Ok(()));
         prop_assert!(agree(&scene, &accel, 200, seed ^ 99) <= 1);
