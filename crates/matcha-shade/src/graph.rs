@@ -331,6 +331,16 @@ impl Graph {
         }
     }
 
+    /// Makes operations that were held while sub-graphs were copied plain ones, so that
+    /// they are found to be equal to others.
+    pub(crate) fn release_held(&mut self) {
+        for node in &mut self.nodes {
+            if let NodeKind::Apply(_, aux) = &mut node.kind {
+                *aux &= !crate::shifted::HELD;
+            }
+        }
+    }
+
     /// Appends a node as it is; used by passes that rebuild a graph.
     pub(crate) fn push_node(&mut self, node: Node) -> NodeId {
         debug_assert!(node.inputs.iter().all(|i| i.index() < self.nodes.len()));

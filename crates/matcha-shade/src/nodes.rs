@@ -117,6 +117,7 @@ pub fn lower(
         reported: BTreeSet::new(),
     };
     lowering.run(tree)?;
+    lowering.graph.release_held();
     let report = LowerReport {
         items: lowering.reported.into_iter().collect(),
     };

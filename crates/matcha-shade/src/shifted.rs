@@ -4,6 +4,12 @@ use crate::graph::{Graph, Node, NodeId, NodeKind};
 use crate::input::{Input, Part};
 use crate::ops::OpCode;
 
+/// Bit of an operation's immediate: while a sub-graph is copied, the value stays that of
+/// the hit. For whole numbers that choose which smooth piece is evaluated (the cell of
+/// the nearest point), so that a copy evaluates the same piece without choosing again.
+/// [`Graph::release_held`] takes the bit away when no copies are made any more.
+pub(crate) const HELD: u32 = 1 << 31;
+
 /// See [`Graph::shifted`].
 pub(crate) fn shifted(graph: &mut Graph, root: NodeId, axis: Part, scale: f32) -> NodeId {
     assert_ne!(axis, Part::Value, "an axis");
@@ -24,6 +30,7 @@ pub(crate) fn shifted(graph: &mut Graph, root: NodeId, axis: Part, scale: f32) -
                 let change = graph.input(kind, axis);
                 moved(graph, id, change, scale)
             }
+            NodeKind::Apply(_, aux) if aux & HELD != 0 => id,
             _ => copy_if_changed(graph, id, node, &copies),
         };
     }

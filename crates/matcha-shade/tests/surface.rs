@@ -19,7 +19,7 @@ use support::Formulas;
 
 /// A rectangle in the plane z = 0, seen from above: x = 2u, y = v/2, and footprints of
 /// a thousandth.
-fn geometry(kind: InputKind, part: Part) -> Vec<f32> {
+fn geometry(kind: InputKind, part: Part, moved: Vec2) -> Vec<f32> {
     let (u, v, step) = (0.3f32, 0.7f32, 1e-3f32);
     let v3 = |p: Vec3| vec![p.x, p.y, p.z];
     let by_part = |value: Vec3, a: Vec3, b: Vec3| match part {
@@ -45,7 +45,7 @@ fn geometry(kind: InputKind, part: Part) -> Vec<f32> {
         InputKind::Position | InputKind::Generated | InputKind::Object => {
             let (s, c) = (0.5f32, 0.75f32.sqrt());
             let scale = if kind == InputKind::Object { 0.5 } else { 1.0 };
-            let place = Vec3::new(2.0 * u, 0.5 * v, 0.0);
+            let place = Vec3::new(2.0 * u, 0.5 * v, 0.0) + moved.extend(0.0);
             let a = Vec3::new(c, s, 0.0) * step;
             let b = Vec3::new(-s, c, 0.0) * step;
             v3(by_part(place, a, b) * scale)
@@ -64,6 +64,11 @@ fn geometry(kind: InputKind, part: Part) -> Vec<f32> {
 
 /// The first closure's named parameter (or its weight).
 fn evaluate(material: &MaterialGraph, cache: bool, parameter: &str) -> Vec<f32> {
+    evaluate_at(material, cache, parameter, Vec2::ZERO)
+}
+
+/// The same, beside the usual place.
+fn evaluate_at(material: &MaterialGraph, cache: bool, parameter: &str, moved: Vec2) -> Vec<f32> {
     let options = Options {
         cache,
         ..Options::default()
@@ -71,7 +76,10 @@ fn evaluate(material: &MaterialGraph, cache: bool, parameter: &str) -> Vec<f32> 
     let program = compile(material, &options).expect("it compiles").program;
     let mut inputs = Rows::new(program.input_rows().max(1), 1);
     for (input, row) in &program.inputs {
-        for (i, x) in geometry(input.kind, input.part).into_iter().enumerate() {
+        for (i, x) in geometry(input.kind, input.part, moved)
+            .into_iter()
+            .enumerate()
+        {
             inputs.set(row + i, 0, x);
         }
     }
@@ -370,4 +378,71 @@ fn gltf_texture_transforms_turn_in_the_files_orientation() {
         program.closures[0].kind,
         ClosureKind::Principled(_)
     ));
+}
+
+/// A Voronoi texture's distance, read at 7 times the Generated coordinates.
+fn cells(feature: &str, dims: &str) -> Vec<SourceNode> {
+    let outputs = vec![socket("Generated", "VECTOR", &[])];
+    let coordinates = node("ShaderNodeTexCoord", vec![], outputs);
+    let inputs = vec![
+        socket("Vector", "VECTOR", &[0.0; 3]),
+        socket("W", "VALUE", &[0.3]),
+        socket("Scale", "VALUE", &[7.0]),
+    ];
+    let mut voronoi = node(
+        "ShaderNodeTexVoronoi",
+        inputs,
+        vec![socket("Distance", "VALUE", &[])],
+    );
+    for (name, value) in [("feature", feature), ("voronoi_dimensions", dims)] {
+        voronoi
+            .props
+            .insert(name.into(), Property::Text(value.into()));
+    }
+    vec![coordinates, voronoi]
+}
+
+#[test]
+fn a_bump_of_cells_has_the_slope_of_the_piece_that_is_hit() {
+    for feature in ["F1", "DISTANCE_TO_EDGE"] {
+        for dims in ["2D", "3D", "4D"] {
+            let mut nodes = cells(feature, dims);
+            let inputs = vec![
+                socket("Strength", "VALUE", &[1.0]),
+                socket("Distance", "VALUE", &[1.0]),
+                socket("Filter Width", "VALUE", &[0.1]),
+                socket("Height", "VALUE", &[1.0]),
+                socket("Normal", "VECTOR", &[0.0; 3]),
+            ];
+            nodes.push(node(
+                "ShaderNodeBump",
+                inputs,
+                vec![socket("Normal", "VECTOR", &[])],
+            ));
+            let bump = with_normal(nodes, &[([0, 0], [1, 0]), ([1, 0], [2, 3])]);
+            let searches = |name: &str| {
+                let options = Options {
+                    cache: false,
+                    ..Options::default()
+                };
+                let program = compile(&bump, &options).expect("it compiles").program;
+                let words = program.words().iter();
+                words
+                    .filter(|w| {
+                        w.operation()
+                            .is_some_and(|op| op.info().name.starts_with(name))
+                    })
+                    .count()
+            };
+            assert_eq!(searches("voronoi_f1"), 1, "one search for three heights");
+            // The heights themselves, each searched for: the distance as a normal's parts.
+            let heights = with_normal(cells(feature, dims), &[([0, 0], [1, 0])]);
+            let height = |moved| evaluate_at(&heights, false, "normal", moved)[0];
+            let step = 2e-4;
+            let slope = [Vec2::X, Vec2::Y]
+                .map(|axis| (height(axis * step) - height(-axis * step)) / (2.0 * step));
+            let normal = evaluate(&bump, false, "normal");
+            close(&normal, &tilted(slope[0], slope[1]), 2e-3);
+        }
+    }
 }

@@ -68,20 +68,6 @@ pub fn voronoi_second_finish(
     vec2(s[2], s[3])
 }
 
-/// The distance to the edge.
-#[inline(always)]
-pub fn voronoi_edge_finish(
-    _c: Vec3,
-    _cw: f32,
-    _f: Vec3,
-    _fw: f32,
-    _randomness: f32,
-    _cell: f32,
-    s: [f32; 5],
-) -> f32 {
-    s[0]
-}
-
 /// Before the blend: distance, and 1 until the first point.
 #[inline(always)]
 pub fn voronoi_smooth_init(
@@ -243,7 +229,7 @@ pub fn voronoi_edge_init_1d(
     fw: f32,
     randomness: f32,
     cell: f32,
-) -> [f32; 5] {
+) -> [f32; 6] {
     let near = voronoi_to_point(
         voronoi_cell_number(cell),
         1,
@@ -252,7 +238,7 @@ pub fn voronoi_edge_init_1d(
         randomness,
         1,
     );
-    [MAX, near.x, near.y, near.z, near.w]
+    [MAX, near.x, near.y, near.z, near.w, 0.0]
 }
 
 /// One neighbour's border in 1 dimension: half way to the points left and right of the
@@ -266,8 +252,8 @@ pub fn voronoi_edge_step_1d(
     fw: f32,
     randomness: f32,
     _cell: f32,
-    s: [f32; 5],
-) -> [f32; 5] {
+    s: [f32; 6],
+) -> [f32; 6] {
     let own = voronoi_to_point(1, 1, quad(c, cw), quad(f, fw), randomness, 1);
     let other = voronoi_to_point(i, 1, quad(c, cw), quad(f, fw), randomness, 1);
     let distance = abs(0.5 * (own.w + other.w));
@@ -277,6 +263,7 @@ pub fn voronoi_edge_step_1d(
         s[2],
         s[3],
         s[4],
+        s[5],
     ]
 }
 
@@ -291,8 +278,8 @@ pub fn voronoi_radius_step_1d(
     fw: f32,
     randomness: f32,
     cell: f32,
-    s: [f32; 5],
-) -> [f32; 5] {
+    s: [f32; 6],
+) -> [f32; 6] {
     let near = Quad {
         x: s[1],
         y: s[2],
@@ -310,6 +297,7 @@ pub fn voronoi_radius_step_1d(
         s[2],
         s[3],
         s[4],
+        s[5],
     ]
 }
 
@@ -480,7 +468,7 @@ pub fn voronoi_edge_init_2d(
     fw: f32,
     randomness: f32,
     cell: f32,
-) -> [f32; 5] {
+) -> [f32; 6] {
     let near = voronoi_to_point(
         voronoi_cell_number(cell),
         1,
@@ -489,7 +477,7 @@ pub fn voronoi_edge_init_2d(
         randomness,
         2,
     );
-    [MAX, near.x, near.y, near.z, near.w]
+    [MAX, near.x, near.y, near.z, near.w, 0.0]
 }
 
 /// One neighbour's bisector in 2 dimensions.
@@ -502,8 +490,8 @@ pub fn voronoi_edge_step_2d(
     fw: f32,
     randomness: f32,
     _cell: f32,
-    s: [f32; 5],
-) -> [f32; 5] {
+    s: [f32; 6],
+) -> [f32; 6] {
     let near = Quad {
         x: s[1],
         y: s[2],
@@ -511,12 +499,16 @@ pub fn voronoi_edge_step_2d(
         w: s[4],
     };
     let other = voronoi_to_point(i, 1, quad(c, cw), quad(f, fw), randomness, 2);
+    let distance = voronoi_bisector(near, other, 2);
+    let closer = distance < s[0];
+    let beyond = select(s[5], i as i32 as f32, closer);
     [
-        min(s[0], voronoi_bisector(near, other, 2)),
+        select(s[0], distance, closer),
         s[1],
         s[2],
         s[3],
         s[4],
+        beyond,
     ]
 }
 
@@ -531,8 +523,8 @@ pub fn voronoi_radius_step_2d(
     fw: f32,
     randomness: f32,
     cell: f32,
-    s: [f32; 5],
-) -> [f32; 5] {
+    s: [f32; 6],
+) -> [f32; 6] {
     let near = Quad {
         x: s[1],
         y: s[2],
@@ -550,6 +542,7 @@ pub fn voronoi_radius_step_2d(
         s[2],
         s[3],
         s[4],
+        s[5],
     ]
 }
 
@@ -720,7 +713,7 @@ pub fn voronoi_edge_init_3d(
     fw: f32,
     randomness: f32,
     cell: f32,
-) -> [f32; 5] {
+) -> [f32; 6] {
     let near = voronoi_to_point(
         voronoi_cell_number(cell),
         1,
@@ -729,7 +722,7 @@ pub fn voronoi_edge_init_3d(
         randomness,
         3,
     );
-    [MAX, near.x, near.y, near.z, near.w]
+    [MAX, near.x, near.y, near.z, near.w, 0.0]
 }
 
 /// One neighbour's bisector in 3 dimensions.
@@ -742,8 +735,8 @@ pub fn voronoi_edge_step_3d(
     fw: f32,
     randomness: f32,
     _cell: f32,
-    s: [f32; 5],
-) -> [f32; 5] {
+    s: [f32; 6],
+) -> [f32; 6] {
     let near = Quad {
         x: s[1],
         y: s[2],
@@ -751,12 +744,16 @@ pub fn voronoi_edge_step_3d(
         w: s[4],
     };
     let other = voronoi_to_point(i, 1, quad(c, cw), quad(f, fw), randomness, 3);
+    let distance = voronoi_bisector(near, other, 3);
+    let closer = distance < s[0];
+    let beyond = select(s[5], i as i32 as f32, closer);
     [
-        min(s[0], voronoi_bisector(near, other, 3)),
+        select(s[0], distance, closer),
         s[1],
         s[2],
         s[3],
         s[4],
+        beyond,
     ]
 }
 
@@ -771,8 +768,8 @@ pub fn voronoi_radius_step_3d(
     fw: f32,
     randomness: f32,
     cell: f32,
-    s: [f32; 5],
-) -> [f32; 5] {
+    s: [f32; 6],
+) -> [f32; 6] {
     let near = Quad {
         x: s[1],
         y: s[2],
@@ -790,6 +787,7 @@ pub fn voronoi_radius_step_3d(
         s[2],
         s[3],
         s[4],
+        s[5],
     ]
 }
 
@@ -960,7 +958,7 @@ pub fn voronoi_edge_init_4d(
     fw: f32,
     randomness: f32,
     cell: f32,
-) -> [f32; 5] {
+) -> [f32; 6] {
     let near = voronoi_to_point(
         voronoi_cell_number(cell),
         1,
@@ -969,7 +967,7 @@ pub fn voronoi_edge_init_4d(
         randomness,
         4,
     );
-    [MAX, near.x, near.y, near.z, near.w]
+    [MAX, near.x, near.y, near.z, near.w, 0.0]
 }
 
 /// One neighbour's bisector in 4 dimensions.
@@ -982,8 +980,8 @@ pub fn voronoi_edge_step_4d(
     fw: f32,
     randomness: f32,
     _cell: f32,
-    s: [f32; 5],
-) -> [f32; 5] {
+    s: [f32; 6],
+) -> [f32; 6] {
     let near = Quad {
         x: s[1],
         y: s[2],
@@ -991,12 +989,16 @@ pub fn voronoi_edge_step_4d(
         w: s[4],
     };
     let other = voronoi_to_point(i, 1, quad(c, cw), quad(f, fw), randomness, 4);
+    let distance = voronoi_bisector(near, other, 4);
+    let closer = distance < s[0];
+    let beyond = select(s[5], i as i32 as f32, closer);
     [
-        min(s[0], voronoi_bisector(near, other, 4)),
+        select(s[0], distance, closer),
         s[1],
         s[2],
         s[3],
         s[4],
+        beyond,
     ]
 }
 
@@ -1011,8 +1013,8 @@ pub fn voronoi_radius_step_4d(
     fw: f32,
     randomness: f32,
     cell: f32,
-    s: [f32; 5],
-) -> [f32; 5] {
+    s: [f32; 6],
+) -> [f32; 6] {
     let near = Quad {
         x: s[1],
         y: s[2],
@@ -1030,6 +1032,7 @@ pub fn voronoi_radius_step_4d(
         s[2],
         s[3],
         s[4],
+        s[5],
     ]
 }
 
@@ -1128,7 +1131,7 @@ pub fn voronoi_radius_finish(
     _fw: f32,
     _randomness: f32,
     _cell: f32,
-    s: [f32; 5],
+    s: [f32; 6],
 ) -> f32 {
     0.5 * sqrt(s[0])
 }
@@ -1398,4 +1401,164 @@ pub fn voronoi_smooth_distance_metric_step_4d(
         4,
         s[0],
     )]
+}
+
+/// The edge: its distance, and the number of the cell beyond it.
+#[inline(always)]
+pub fn voronoi_edge_finish(
+    _c: Vec3,
+    _cw: f32,
+    _f: Vec3,
+    _fw: f32,
+    _randomness: f32,
+    _cell: f32,
+    s: [f32; 6],
+) -> Vec2 {
+    vec2(s[0], s[5])
+}
+
+/// Distance to a cell's point in 1 dimension, Euclidean.
+#[inline(always)]
+pub fn voronoi_distance_1d(c: Vec3, cw: f32, f: Vec3, fw: f32, randomness: f32, cell: f32) -> f32 {
+    let v = voronoi_to_point(
+        voronoi_cell_number(cell),
+        1,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        1,
+    );
+    sqrt(quad_dot(v, v, 1))
+}
+
+/// Distance to a cell's point in 2 dimensions, Euclidean.
+#[inline(always)]
+pub fn voronoi_distance_2d(c: Vec3, cw: f32, f: Vec3, fw: f32, randomness: f32, cell: f32) -> f32 {
+    let v = voronoi_to_point(
+        voronoi_cell_number(cell),
+        1,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        2,
+    );
+    sqrt(quad_dot(v, v, 2))
+}
+
+/// Distance to the border between two cells' points in 2 dimensions.
+#[inline(always)]
+pub fn voronoi_border_2d(
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    cell: f32,
+    beyond: f32,
+) -> f32 {
+    let near = voronoi_to_point(
+        voronoi_cell_number(cell),
+        1,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        2,
+    );
+    let other = voronoi_to_point(
+        voronoi_cell_number(beyond),
+        1,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        2,
+    );
+    voronoi_bisector(near, other, 2)
+}
+
+/// Distance to a cell's point in 3 dimensions, Euclidean.
+#[inline(always)]
+pub fn voronoi_distance_3d(c: Vec3, cw: f32, f: Vec3, fw: f32, randomness: f32, cell: f32) -> f32 {
+    let v = voronoi_to_point(
+        voronoi_cell_number(cell),
+        1,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        3,
+    );
+    sqrt(quad_dot(v, v, 3))
+}
+
+/// Distance to the border between two cells' points in 3 dimensions.
+#[inline(always)]
+pub fn voronoi_border_3d(
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    cell: f32,
+    beyond: f32,
+) -> f32 {
+    let near = voronoi_to_point(
+        voronoi_cell_number(cell),
+        1,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        3,
+    );
+    let other = voronoi_to_point(
+        voronoi_cell_number(beyond),
+        1,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        3,
+    );
+    voronoi_bisector(near, other, 3)
+}
+
+/// Distance to a cell's point in 4 dimensions, Euclidean.
+#[inline(always)]
+pub fn voronoi_distance_4d(c: Vec3, cw: f32, f: Vec3, fw: f32, randomness: f32, cell: f32) -> f32 {
+    let v = voronoi_to_point(
+        voronoi_cell_number(cell),
+        1,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        4,
+    );
+    sqrt(quad_dot(v, v, 4))
+}
+
+/// Distance to the border between two cells' points in 4 dimensions.
+#[inline(always)]
+pub fn voronoi_border_4d(
+    c: Vec3,
+    cw: f32,
+    f: Vec3,
+    fw: f32,
+    randomness: f32,
+    cell: f32,
+    beyond: f32,
+) -> f32 {
+    let near = voronoi_to_point(
+        voronoi_cell_number(cell),
+        1,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        4,
+    );
+    let other = voronoi_to_point(
+        voronoi_cell_number(beyond),
+        1,
+        quad(c, cw),
+        quad(f, fw),
+        randomness,
+        4,
+    );
+    voronoi_bisector(near, other, 4)
 }

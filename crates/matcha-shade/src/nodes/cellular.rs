@@ -9,6 +9,7 @@ use crate::device::voronoi::{
 };
 use crate::graph::NodeId;
 use crate::ops::OpCode;
+use crate::shifted::HELD;
 
 /// Largest detail.
 const MOST_DETAIL: f32 = 15.0;
@@ -230,7 +231,8 @@ fn added(
     Sum { value, amplitudes }
 }
 
-fn cell(l: &mut Lowering, c: Coordinate, scale: NodeId) -> Cell {
+/// Corner and inside of the cell that a coordinate is in. The corner is held or not.
+fn cell(l: &mut Lowering, c: Coordinate, scale: NodeId, hold: u32) -> Cell {
     let plain = l.known(scale) == Some(1.0);
     let p = if plain {
         c.p
@@ -244,18 +246,14 @@ fn cell(l: &mut Lowering, c: Coordinate, scale: NodeId) -> Cell {
     };
     let zero = l.graph.f1(0.0);
     let (corner, inside) = if c.dims > 1 {
-        (
-            l.op(OpCode::vector_floor, &[p]),
-            l.op(OpCode::vector_fraction, &[p]),
-        )
+        let corner = l.graph.apply_aux(OpCode::vector_floor, hold, &[p]);
+        (corner, l.op(OpCode::vector_subtract, &[p, corner]))
     } else {
         (c.p, c.p)
     };
     let (cw, fw) = if c.dims == 1 || c.dims == 4 {
-        (
-            l.op(OpCode::math_floor, &[w]),
-            l.op(OpCode::math_fraction, &[w]),
-        )
+        let corner = l.graph.apply_aux(OpCode::math_floor, hold, &[w]);
+        (corner, l.op(OpCode::math_subtract, &[w, corner]))
     } else {
         (zero, zero)
     };
@@ -268,49 +266,85 @@ fn cell(l: &mut Lowering, c: Coordinate, scale: NodeId) -> Cell {
 }
 
 /// One octave's distance, colour or position (F4).
+///
+/// Beside the hit, a Euclidean distance is that to the point, or border, that is nearest
+/// at the hit: a bump's slope is that of the piece of surface that the hit is on, and
+/// the search is made once instead of three times. Colours and positions jump from cell
+/// to cell, and a bump of them is made of those jumps: they search anew.
 fn octave(l: &mut Lowering, s: &Settings, c: Coordinate, scale: NodeId, output: &str) -> NodeId {
-    let at = cell(l, c, scale);
-    let base = [at.c, at.cw, at.f, at.fw, s.randomness];
     if s.feature == Feature::Smooth {
-        return smooth(l, s, base, output);
+        let at = cell(l, c, scale, 0);
+        return smooth(l, s, [at.c, at.cw, at.f, at.fw, s.randomness], output);
     }
-    let found = nearest(l, s, base);
+    let is_smooth_piece = match s.feature {
+        Feature::First => output == "Distance" && (s.metric == METRIC_EUCLIDEAN || s.dims == 1),
+        Feature::Edge => s.dims > 1,
+        _ => false,
+    };
+    let hold = if is_smooth_piece { HELD } else { 0 };
+    let at = cell(l, c, scale, hold);
+    let base = [at.c, at.cw, at.f, at.fw, s.randomness];
+    let found = nearest(l, s, base, hold);
     let number = l.graph.component(found, 1);
     let [c, cw, f, fw, randomness] = base;
+    let at_dims = |ops: [OpCode; 4]| ops[s.dims - 1];
     match (s.feature, output) {
-        (Feature::Edge, _) => {
-            let op = [
-                OpCode::voronoi_edge_1d,
-                OpCode::voronoi_edge_2d,
-                OpCode::voronoi_edge_3d,
-                OpCode::voronoi_edge_4d,
-            ][s.dims - 1];
+        (Feature::Edge, _) => edge(l, s, base, number, hold),
+        (_, "Distance") if is_smooth_piece => {
+            let op = at_dims([
+                OpCode::voronoi_distance_1d,
+                OpCode::voronoi_distance_2d,
+                OpCode::voronoi_distance_3d,
+                OpCode::voronoi_distance_4d,
+            ]);
             l.op(op, &[c, cw, f, fw, randomness, number])
         }
         (_, "Distance") => l.graph.component(found, 0),
         (_, "Color") => {
-            let op = [
+            let op = at_dims([
                 OpCode::voronoi_color_1d,
                 OpCode::voronoi_color_2d,
                 OpCode::voronoi_color_3d,
                 OpCode::voronoi_color_4d,
-            ][s.dims - 1];
+            ]);
             l.op(op, &[c, cw, number])
         }
         _ => {
-            let op = [
+            let op = at_dims([
                 OpCode::voronoi_position_1d,
                 OpCode::voronoi_position_2d,
                 OpCode::voronoi_position_3d,
                 OpCode::voronoi_position_4d,
-            ][s.dims - 1];
+            ]);
             l.op(op, &[c, cw, randomness, number])
         }
     }
 }
 
+fn edge(l: &mut Lowering, s: &Settings, base: [NodeId; 5], number: NodeId, hold: u32) -> NodeId {
+    let [c, cw, f, fw, randomness] = base;
+    let op = [
+        OpCode::voronoi_edge_1d,
+        OpCode::voronoi_edge_2d,
+        OpCode::voronoi_edge_3d,
+        OpCode::voronoi_edge_4d,
+    ][s.dims - 1];
+    let inputs = [c, cw, f, fw, randomness, number];
+    let found = l.graph.apply_aux(op, hold, &inputs);
+    if s.dims == 1 {
+        return l.graph.component(found, 0);
+    }
+    let beyond = l.graph.component(found, 1);
+    let op = [
+        OpCode::voronoi_border_2d,
+        OpCode::voronoi_border_3d,
+        OpCode::voronoi_border_4d,
+    ][s.dims - 2];
+    l.op(op, &[c, cw, f, fw, randomness, number, beyond])
+}
+
 /// Distance and number of the cell that the feature is about.
-fn nearest(l: &mut Lowering, s: &Settings, base: [NodeId; 5]) -> NodeId {
+fn nearest(l: &mut Lowering, s: &Settings, base: [NodeId; 5], hold: u32) -> NodeId {
     let always_euclidean = matches!(s.feature, Feature::Edge | Feature::Radius);
     if s.feature != Feature::Second && (s.metric == METRIC_EUCLIDEAN || always_euclidean) {
         let op = [
@@ -319,7 +353,7 @@ fn nearest(l: &mut Lowering, s: &Settings, base: [NodeId; 5]) -> NodeId {
             OpCode::voronoi_f1_3d,
             OpCode::voronoi_f1_4d,
         ][s.dims - 1];
-        return l.op(op, &base);
+        return l.graph.apply_aux(op, hold, &base);
     }
     let ops = if s.feature == Feature::Second {
         [
@@ -372,9 +406,9 @@ fn smooth(l: &mut Lowering, s: &Settings, base: [NodeId; 5], output: &str) -> No
 
 fn radius(l: &mut Lowering, s: &Settings, c: Coordinate) -> NodeId {
     let one = l.graph.f1(1.0);
-    let at = cell(l, c, one);
+    let at = cell(l, c, one, 0);
     let base = [at.c, at.cw, at.f, at.fw, s.randomness];
-    let found = nearest(l, s, base);
+    let found = nearest(l, s, base, 0);
     let number = l.graph.component(found, 1);
     let op = [
         OpCode::voronoi_radius_1d,

@@ -41,15 +41,15 @@ operations! {
         },
     }
 
-    /// Distance to the edge of the nearest point's region in 1 dimension. Cycles, Voronoi Texture.
-    voronoi_edge_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
+    /// Distance to the edge of the nearest point's region, and the cell beyond it, in 1 dimension. Cycles, Voronoi Texture.
+    voronoi_edge_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F2 {
         cost: 1.7, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_1d,
             init: voronoi_ops::voronoi_edge_init_1d,
             step: voronoi_ops::voronoi_edge_step_1d,
             finish: voronoi_ops::voronoi_edge_finish,
-            state: 5,
+            state: 6,
         },
     }
 
@@ -61,7 +61,7 @@ operations! {
             init: voronoi_ops::voronoi_edge_init_1d,
             step: voronoi_ops::voronoi_radius_step_1d,
             finish: voronoi_ops::voronoi_radius_finish,
-            state: 5,
+            state: 6,
         },
     }
 
@@ -185,15 +185,15 @@ operations! {
         },
     }
 
-    /// Distance to the edge of the nearest point's region in 2 dimensions. Cycles, Voronoi Texture.
-    voronoi_edge_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
+    /// Distance to the edge of the nearest point's region, and the cell beyond it, in 2 dimensions. Cycles, Voronoi Texture.
+    voronoi_edge_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F2 {
         cost: 10.4, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_2d,
             init: voronoi_ops::voronoi_edge_init_2d,
             step: voronoi_ops::voronoi_edge_step_2d,
             finish: voronoi_ops::voronoi_edge_finish,
-            state: 5,
+            state: 6,
         },
     }
 
@@ -205,7 +205,7 @@ operations! {
             init: voronoi_ops::voronoi_edge_init_2d,
             step: voronoi_ops::voronoi_radius_step_2d,
             finish: voronoi_ops::voronoi_radius_finish,
-            state: 5,
+            state: 6,
         },
     }
 
@@ -329,15 +329,15 @@ operations! {
         },
     }
 
-    /// Distance to the edge of the nearest point's region in 3 dimensions. Cycles, Voronoi Texture.
-    voronoi_edge_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
+    /// Distance to the edge of the nearest point's region, and the cell beyond it, in 3 dimensions. Cycles, Voronoi Texture.
+    voronoi_edge_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F2 {
         cost: 48.2, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_3d,
             init: voronoi_ops::voronoi_edge_init_3d,
             step: voronoi_ops::voronoi_edge_step_3d,
             finish: voronoi_ops::voronoi_edge_finish,
-            state: 5,
+            state: 6,
         },
     }
 
@@ -349,7 +349,7 @@ operations! {
             init: voronoi_ops::voronoi_edge_init_3d,
             step: voronoi_ops::voronoi_radius_step_3d,
             finish: voronoi_ops::voronoi_radius_finish,
-            state: 5,
+            state: 6,
         },
     }
 
@@ -473,15 +473,15 @@ operations! {
         },
     }
 
-    /// Distance to the edge of the nearest point's region in 4 dimensions. Cycles, Voronoi Texture.
-    voronoi_edge_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
+    /// Distance to the edge of the nearest point's region, and the cell beyond it, in 4 dimensions. Cycles, Voronoi Texture.
+    voronoi_edge_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F2 {
         cost: 227.0, error: 1e-4,
         loop: {
             count: voronoi_ops::voronoi_edge_count_4d,
             init: voronoi_ops::voronoi_edge_init_4d,
             step: voronoi_ops::voronoi_edge_step_4d,
             finish: voronoi_ops::voronoi_edge_finish,
-            state: 5,
+            state: 6,
         },
     }
 
@@ -493,7 +493,7 @@ operations! {
             init: voronoi_ops::voronoi_edge_init_4d,
             step: voronoi_ops::voronoi_radius_step_4d,
             finish: voronoi_ops::voronoi_radius_finish,
-            state: 5,
+            state: 6,
         },
     }
 
@@ -579,5 +579,47 @@ operations! {
             finish: voronoi_ops::voronoi_smooth_position,
             state: 8,
         },
+    }
+
+    /// Distance to a cell's point in 1 dimension, Euclidean. Cycles, Voronoi Texture.
+    voronoi_distance_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
+        cost: 1.0, error: 1e-4,
+        eval: voronoi_ops::voronoi_distance_1d,
+    }
+
+    /// Distance to a cell's point in 2 dimensions, Euclidean. Cycles, Voronoi Texture.
+    voronoi_distance_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
+        cost: 1.5, error: 1e-4,
+        eval: voronoi_ops::voronoi_distance_2d,
+    }
+
+    /// Distance to the border between two cells' points in 2 dimensions. Cycles, Voronoi Texture.
+    voronoi_border_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1, beyond: F1) -> F1 {
+        cost: 2.5, error: 1e-4,
+        eval: voronoi_ops::voronoi_border_2d,
+    }
+
+    /// Distance to a cell's point in 3 dimensions, Euclidean. Cycles, Voronoi Texture.
+    voronoi_distance_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
+        cost: 2.0, error: 1e-4,
+        eval: voronoi_ops::voronoi_distance_3d,
+    }
+
+    /// Distance to the border between two cells' points in 3 dimensions. Cycles, Voronoi Texture.
+    voronoi_border_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1, beyond: F1) -> F1 {
+        cost: 4.0, error: 1e-4,
+        eval: voronoi_ops::voronoi_border_3d,
+    }
+
+    /// Distance to a cell's point in 4 dimensions, Euclidean. Cycles, Voronoi Texture.
+    voronoi_distance_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
+        cost: 3.0, error: 1e-4,
+        eval: voronoi_ops::voronoi_distance_4d,
+    }
+
+    /// Distance to the border between two cells' points in 4 dimensions. Cycles, Voronoi Texture.
+    voronoi_border_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1, beyond: F1) -> F1 {
+        cost: 6.0, error: 1e-4,
+        eval: voronoi_ops::voronoi_border_4d,
     }
 }
