@@ -123,25 +123,46 @@ def tube(name, path, radii, material, segments=14, steps=6, offset=(0, 0), flat=
     return made
 
 
-def box(name, size, material, bevel=0.004, seed=None, segments=2):
-    """A box around the origin; grain runs along its longest side, texture shifted by `seed`."""
+def box(name, size, material, bevel=0.004, seed=None):
+    """A box with rounded edges; grain runs along its longest side, texture shifted by `seed`.
+
+    Each side is a grid of 3 x 3 quads. A point of the sharp box is carried onto the round one along
+    the line from the nearest point of the inner box, which is where the normals come from too.
+    """
     half = np.asarray(size, float) / 2
-    corners = [[half[a] * s[a] for a in range(3)] for s in
-               [(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)]]
-    faces = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+    inner = half - bevel
     shift = random.Random(seed).uniform(0, 9) if seed is not None else 0.0
-    uv = []
-    for number, face in enumerate(faces):
-        axes = [a for a in range(3) if len({round(corners[v][a], 9) for v in face}) > 1]
-        axes.sort(key=lambda a: -size[a])
-        uv += [(corners[v][axes[0]] + shift, corners[v][axes[1]] + shift * 0.37 + number * 0.61) for v in face]
-    made = make_object(name, corners, faces, uv, material, False)
+    order = sorted(range(3), key=lambda axis: -size[axis])
+    vertices, faces, uv = [], [], []
+    for number, (axis, sign) in enumerate(((2, -1), (2, 1), (1, -1), (0, 1), (1, 1), (0, -1))):
+        first, second = (axis + 1) % 3, (axis + 2) % 3
+        steps = [np.array([-half[a], -inner[a], inner[a], half[a]] if bevel else [-half[a], half[a]]) for a in (first, second)]
+        p = np.empty((len(steps[1]), len(steps[0]), 3))
+        p[..., axis] = sign * half[axis]
+        p[..., first], p[..., second] = np.meshgrid(steps[0] * sign, steps[1])
+        along, across = [a for a in order if a != axis]
+        sharp = p.reshape(-1, 3)
+        start = len(vertices)
+        new = [tuple(v + start for v in f) for f in grid_faces(len(steps[0]), len(steps[1]))]
+        uv += [(sharp[v - start][along] + shift, sharp[v - start][across] + shift * 0.37 + number * 0.61) for f in new for v in f]
+        vertices += rounded(sharp, inner, bevel).tolist()
+        faces += new
+    made = make_object(name, vertices, faces, uv, material, bool(bevel))
     if bevel:
-        cut = made.modifiers.new("Bevel", "BEVEL")
-        cut.width, cut.segments, cut.limit_method = bevel, segments, "NONE"
-        cut.harden_normals = True
-        made.data.polygons.foreach_set("use_smooth", [True] * 6)
+        weld(made)
+        found = np.array([v.co for v in made.data.vertices])
+        away = found - np.clip(found, -inner, inner)
+        made.data.normals_split_custom_set_from_vertices(away / np.linalg.norm(away, axis=1)[:, None])
     return made
+
+
+def rounded(points, inner, radius):
+    """Points of a sharp box on the box of the same size with rounded edges."""
+    if not radius:
+        return points
+    nearest = np.clip(points, -inner, inner)
+    away = points - nearest
+    return nearest + away / np.linalg.norm(away, axis=1)[:, None] * radius
 
 
 def cushion(name, size, material, power=5.0, cells=14, dimples=None, depth=0.0):
