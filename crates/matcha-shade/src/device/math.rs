@@ -12,6 +12,12 @@ pub use glam::{Vec2, Vec3};
 pub const PI: f32 = core::f32::consts::PI;
 /// 2π.
 pub const TAU: f32 = core::f32::consts::TAU;
+/// ln 2.
+pub const LN_2: f32 = core::f32::consts::LN_2;
+/// log₂ e.
+pub const LOG2_E: f32 = core::f32::consts::LOG2_E;
+/// 1/π.
+pub const FRAC_1_PI: f32 = core::f32::consts::FRAC_1_PI;
 /// Largest finite number.
 pub const MAX: f32 = f32::MAX;
 
@@ -292,28 +298,17 @@ pub fn floored_modulo(a: f32, b: f32) -> f32 {
 pub fn exp2(x: f32) -> f32 {
     let limited = clamp(x, -126.0, 127.999_99);
     let whole = floor(limited + 0.5);
-    let f = limited - whole;
-    let p = 0.000_154_780_22 * f + 0.001_340_043_2;
-    let p = p * f + 0.009_617_995;
-    let p = p * f + 0.055_503_27;
-    let p = p * f + 0.240_226_51;
-    let p = p * f + 0.693_147_2;
-    let p = p * f + 1.0;
-    // Two factors, because 2¹²⁸ is no number while 2¹²⁸·0.99 is one.
-    let half = to_int(whole) >> 1;
-    let rest = to_int(whole) - half;
-    let a = float_of(((half + 127) as u32) << 23);
-    let b = float_of(((rest + 127) as u32) << 23);
-    select(0.0, p * a * b, x > -126.0)
+    select(0.0, exp2_scaled(limited - whole, whole), x > -126.0)
 }
 
 /// eˣ, relative error 4·10⁻⁷ for |x| ≤ 80.
 #[inline(always)]
 pub fn exp(x: f32) -> f32 {
     // log2(e) in two parts, so that the product's rounding does not grow with x.
-    let whole = floor(clamp(x, -87.3, 88.7) * core::f32::consts::LOG2_E + 0.5);
-    let rest = (clamp(x, -87.3, 88.7) - whole * 0.693_359_4) - whole * -2.121_944_4e-4;
-    let value = exp2_scaled(rest * core::f32::consts::LOG2_E, whole);
+    let limited = clamp(x, -87.3, 88.7);
+    let whole = floor(limited * LOG2_E + 0.5);
+    let rest = (limited - whole * 0.693_359_4) - whole * -2.121_944_4e-4;
+    let value = exp2_scaled(rest * LOG2_E, whole);
     select(0.0, value, x > -87.3)
 }
 
@@ -323,9 +318,10 @@ pub fn exp2_scaled(f: f32, whole: f32) -> f32 {
     let p = 0.000_154_780_22 * f + 0.001_340_043_2;
     let p = p * f + 0.009_617_995;
     let p = p * f + 0.055_503_27;
-    let p = p * f + 0.240_226_51;
-    let p = p * f + 0.693_147_2;
+    let p = p * f + 0.240_226_5;
+    let p = p * f + LN_2;
     let p = p * f + 1.0;
+    // Two factors, because 2¹²⁸ is no number while 2¹²⁸·0.99 is one.
     let half = to_int(whole) >> 1;
     let rest = to_int(whole) - half;
     p * float_of(((half + 127) as u32) << 23) * float_of(((rest + 127) as u32) << 23)
@@ -352,7 +348,7 @@ pub fn log2(x: f32) -> f32 {
 /// Natural logarithm for x > 0; −88.03 for 0 and below.
 #[inline(always)]
 pub fn log(x: f32) -> f32 {
-    log2(x) * core::f32::consts::LN_2
+    log2(x) * LN_2
 }
 
 /// xʸ for x ≥ 0: relative error about 2·10⁻⁷·(1 + |y log₂ x|). 0⁰ is 1.
@@ -392,7 +388,7 @@ pub fn minus_half_turns(x: f32, m: f32) -> f32 {
 /// Sine, error 2·10⁻⁷ for |x| ≤ 10⁴; loses |x|·10⁻¹¹ above.
 #[inline(always)]
 pub fn sin(x: f32) -> f32 {
-    let k = floor(x * core::f32::consts::FRAC_1_PI + 0.5);
+    let k = floor(x * FRAC_1_PI + 0.5);
     let r = minus_half_turns(x, k * 2.0);
     negate_if(sin_quarter(r), (to_int(k) & 1) != 0)
 }
@@ -400,7 +396,7 @@ pub fn sin(x: f32) -> f32 {
 /// Cosine, error as [`sin`].
 #[inline(always)]
 pub fn cos(x: f32) -> f32 {
-    let k = floor(x * core::f32::consts::FRAC_1_PI);
+    let k = floor(x * FRAC_1_PI);
     let r = minus_half_turns(x, k * 2.0 + 1.0);
     negate_if(sin_quarter(r), (to_int(k) & 1) == 0)
 }
@@ -487,10 +483,10 @@ pub fn tanh(x: f32) -> f32 {
     let e = exp(2.0 * min(abs(x), 20.0));
     let far = 1.0 - 2.0 / (e + 1.0);
     let x2 = x * x;
-    let p = x2 * -6.282_473_8e-3 + 2.107_775_9e-2;
-    let p = p * x2 - 5.385_385_8e-2;
+    let p = x2 * -6.282_474e-3 + 2.107_776e-2;
+    let p = p * x2 - 5.385_386e-2;
     let p = p * x2 + 0.133_326_02;
-    let p = p * x2 - 0.333_333_18;
+    let p = p * x2 - 0.333_333_2;
     select(negate_if(far, x < 0.0), x + x * x2 * p, abs(x) < 0.55)
 }
 
