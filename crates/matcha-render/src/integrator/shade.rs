@@ -198,8 +198,7 @@ fn selection_normal(point: &SurfacePoint, lobes: &LobeSet) -> Vec3 {
 
 /// The ray to a sampled light; it stops short of the light's own surface.
 fn shadow_ray(point: &SurfacePoint, task: &SurfaceTask, light: &LightSample) -> Ray {
-    let reflected = light.wi.dot(point.true_normal) > 0.0;
-    let start = if reflected { point.shadow_origin } else { point.position };
+    let start = point.position.lerp(point.shadow_origin, terminator_lift(point, light.wi));
     let origin = offset_origin(start, point.true_normal, light.wi);
     let (direction, t_max) = if light.distance.is_finite() {
         let to_light = light.point - origin;
@@ -209,6 +208,16 @@ fn shadow_ray(point: &SurfacePoint, task: &SurfaceTask, light: &LightSample) -> 
     };
     let excluded = [task.hit.instance, task.hit.primitive];
     Ray { origin, direction, t_min: 0.0, t_max, mask: ray_kind::SHADOW, excluded }
+}
+
+/// Share of the way to the smooth surface that a shadow ray starts at: all of it where light
+/// grazes the facet, nothing where it comes from well above, since lifting everywhere would
+/// carry rays through thin objects (Cycles' shadow terminator offset, 0.1 by default).
+fn terminator_lift(point: &SurfacePoint, wi: Vec3) -> f32 {
+    const GRAZING: f32 = 0.1;
+    let above_smooth = wi.dot(point.normal) > 0.0;
+    let cosine = wi.dot(point.true_normal);
+    if above_smooth { (1.0 - cosine / GRAZING).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// Whether the light's ray visibility includes surfaces that the path reached like this one.
