@@ -145,7 +145,11 @@ impl Embree {
 }
 
 fn context() -> Context {
-    Context { flags: 0, filter: std::ptr::null(), instance: INVALID }
+    Context {
+        flags: 0,
+        filter: std::ptr::null(),
+        instance: INVALID,
+    }
 }
 
 fn convert(ray: &Ray) -> RayHit {
@@ -175,7 +179,10 @@ unsafe fn triangles(device: *mut c_void, mesh: &Mesh, transform: Affine3A) -> *m
         let vertices =
             rtcSetNewGeometryBuffer(geometry, VERTEX_BUFFER, 0, FLOAT3, 12, mesh.positions.len());
         for (i, &p) in mesh.positions.iter().enumerate() {
-            vertices.cast::<[f32; 3]>().add(i).write(transform.transform_point3(p).to_array());
+            vertices
+                .cast::<[f32; 3]>()
+                .add(i)
+                .write(transform.transform_point3(p).to_array());
         }
         let indices =
             rtcSetNewGeometryBuffer(geometry, INDEX_BUFFER, 0, UINT3, 12, mesh.indices.len());

@@ -37,29 +37,59 @@ fn main() {
 
 fn compare(name: &str, scene: &Scene, from_camera: bool) {
     let triangles: usize = scene.meshes.iter().map(|m| m.indices.len()).sum();
-    println!("{name}: {triangles} triangles, {} instances", scene.instances.len());
+    println!(
+        "{name}: {triangles} triangles, {} instances",
+        scene.instances.len()
+    );
     let shared = scene.instances.len() > scene.meshes.len();
-    let Ok(accel) = Accel::build(scene) else { return eprintln!("cannot be built") };
+    let Ok(accel) = Accel::build(scene) else {
+        return eprintln!("cannot be built");
+    };
     let rays = scenes::rays(&accel, scene, from_camera, RAYS);
-    for flat in if shared { vec![true, false] } else { vec![true] } {
+    for flat in if shared {
+        vec![true, false]
+    } else {
+        vec![true]
+    } {
         let options = BuildOptions::default();
-        let flat_triangles = if flat { options.flat_triangles } else { Some(0) };
+        let flat_triangles = if flat {
+            options.flat_triangles
+        } else {
+            Some(0)
+        };
         let start = Instant::now();
-        let Ok(accel) = Accel::build_with(scene, &BuildOptions { flat_triangles, ..options })
-        else {
+        let Ok(accel) = Accel::build_with(
+            scene,
+            &BuildOptions {
+                flat_triangles,
+                ..options
+            },
+        ) else {
             continue;
         };
         let built = start.elapsed().as_secs_f64();
         let what = format!(
             "ours {}, {built:.2} s, {} MB",
-            if flat { "as built by default" } else { level(flat) },
+            if flat {
+                "as built by default"
+            } else {
+                level(flat)
+            },
             accel.bytes() / 1_000_000
         );
-        report(&what, &rays, &|r| accel.closest(r).is_some(), &|r| accel.occluded(r));
+        report(&what, &rays, &|r| accel.closest(r).is_some(), &|r| {
+            accel.occluded(r)
+        });
         for robust in [true, false] {
             let embree = Embree::build(scene, flat, robust);
-            let what = format!("Embree {} {}", level(flat), if robust { "robust" } else { "fast" });
-            report(&what, &rays, &|r| embree.closest(r), &|r| embree.occluded(r));
+            let what = format!(
+                "Embree {} {}",
+                level(flat),
+                if robust { "robust" } else { "fast" }
+            );
+            report(&what, &rays, &|r| embree.closest(r), &|r| {
+                embree.occluded(r)
+            });
         }
     }
 }
@@ -84,8 +114,10 @@ fn report(what: &str, [bounces, shadows]: &[Vec<Ray>; 2], closest: Query, occlud
 fn rate(rays: &[Ray], threads: usize, query: Query) -> (f64, usize) {
     let part = rays.len().div_ceil(threads).max(1);
     std::thread::scope(|scope| {
-        let workers: Vec<_> =
-            rays.chunks(part).map(|rays| scope.spawn(move || median_rate(rays, query))).collect();
+        let workers: Vec<_> = rays
+            .chunks(part)
+            .map(|rays| scope.spawn(move || median_rate(rays, query)))
+            .collect();
         let results = workers.into_iter().filter_map(|worker| worker.join().ok());
         results.fold((0.0, 0), |sum, result| (sum.0 + result.0, sum.1 + result.1))
     })

@@ -21,16 +21,25 @@ pub fn measure() {
             [bits as u8, (bits >> 8) as u8, (bits >> 16) as u8, 255]
         })
         .collect();
-    let floats: Vec<[f32; 4]> = bytes.iter().map(|p| p.map(|c| f32::from(c) / 255.0)).collect();
-    let kinds =
-        [("bytes", Pixels::Rgba8(Arc::new(bytes))), ("floats", Pixels::RgbaF32(Arc::new(floats)))];
+    let floats: Vec<[f32; 4]> = bytes
+        .iter()
+        .map(|p| p.map(|c| f32::from(c) / 255.0))
+        .collect();
+    let kinds = [
+        ("bytes", Pixels::Rgba8(Arc::new(bytes))),
+        ("floats", Pixels::RgbaF32(Arc::new(floats))),
+    ];
     for (name, pixels) in kinds {
         let image = Image {
             name: name.into(),
             width: SIZE,
             height: SIZE,
             pixels,
-            color_space: if name == "bytes" { ColorSpace::Srgb } else { ColorSpace::LinearRec709 },
+            color_space: if name == "bytes" {
+                ColorSpace::Srgb
+            } else {
+                ColorSpace::LinearRec709
+            },
             alpha: AlphaMode::Straight,
         };
         for interpolation in [Interpolation::Linear, Interpolation::Cubic] {

@@ -33,7 +33,11 @@ pub struct BuildOptions {
 
 impl Default for BuildOptions {
     fn default() -> Self {
-        Self { flat_triangles: None, pre_split: true, reinsertion: 0.15 }
+        Self {
+            flat_triangles: None,
+            pre_split: true,
+            reinsertion: 0.15,
+        }
     }
 }
 
@@ -114,7 +118,11 @@ impl Builder {
         if worst >= Link::LIMIT {
             return Err(AccelError::TooLarge { limit: Link::LIMIT });
         }
-        let mut leaves = LeafWriter { primitives, packs: &mut self.packs, scratch: Vec::new() };
+        let mut leaves = LeafWriter {
+            primitives,
+            packs: &mut self.packs,
+            scratch: Vec::new(),
+        };
         Ok(Some(collapse(&tree, &mut self.nodes, &mut leaves)))
     }
 
@@ -138,12 +146,20 @@ impl Builder {
                     }
                 })
             };
-            let mut corners = [corner(indices[0])?, corner(indices[1])?, corner(indices[2])?];
+            let mut corners = [
+                corner(indices[0])?,
+                corner(indices[1])?,
+                corner(indices[2])?,
+            ];
             if let Some(transform) = transform {
                 corners = corners.map(|p| transform.transform_point3(p));
             }
             if is_hittable(corners) {
-                into.push(Item { corners, primitive: primitive as u32, instance });
+                into.push(Item {
+                    corners,
+                    primitive: primitive as u32,
+                    instance,
+                });
             } else {
                 self.dropped += 1;
             }
@@ -188,8 +204,10 @@ fn triangle_boxes(items: &[Item], pre_split: bool) -> (Vec<Aabb>, Vec<u32>) {
     for i in 0..boxes.len() {
         let whole = triangles[indices[i] as usize].aabb();
         let slack = whole.max.abs().max(whole.min.abs()) * (4.0 * f32::EPSILON);
-        let grown =
-            Aabb::new((boxes[i].min - slack).max(whole.min), (boxes[i].max + slack).min(whole.max));
+        let grown = Aabb::new(
+            (boxes[i].min - slack).max(whole.min),
+            (boxes[i].max + slack).min(whole.max),
+        );
         if grown.min.cmple(grown.max).all() {
             boxes[kept] = grown;
             indices[kept] = indices[i];
@@ -227,11 +245,13 @@ fn binary_tree(primitives: &Primitives, options: &BuildOptions) -> Bvh2 {
 fn choose_flat(scene: &Scene, budget: usize) -> Result<Vec<bool>, AccelError> {
     let mut uses = vec![0usize; scene.meshes.len()];
     for instance in &scene.instances {
-        let count = uses.get_mut(instance.mesh as usize).ok_or_else(|| AccelError::MeshIndex {
-            instance: instance.name.clone(),
-            mesh: instance.mesh,
-            meshes: scene.meshes.len(),
-        })?;
+        let count = uses
+            .get_mut(instance.mesh as usize)
+            .ok_or_else(|| AccelError::MeshIndex {
+                instance: instance.name.clone(),
+                mesh: instance.mesh,
+                meshes: scene.meshes.len(),
+            })?;
         *count += 1;
     }
     let mut flat = vec![false; scene.instances.len()];
@@ -259,7 +279,10 @@ fn placed_bounds(items: &[Item], transform: &Affine3A) -> Bounds {
     }
     // The walk's ray is transformed, not the triangles: both round.
     let slack = (bounds.max.abs().max(bounds.min.abs())) * (8.0 * f32::EPSILON);
-    Bounds { min: bounds.min - slack, max: bounds.max + slack }
+    Bounds {
+        min: bounds.min - slack,
+        max: bounds.max + slack,
+    }
 }
 
 /// Builds the structure of a scene.
@@ -278,7 +301,12 @@ pub(super) fn build(scene: &Scene, options: &BuildOptions) -> Result<Accel, Acce
         }
         if flat[i] {
             let mesh = &scene.meshes[instance.mesh as usize];
-            builder.gather(mesh, Some(&instance.transform), i as u32, &mut top.triangles)?;
+            builder.gather(
+                mesh,
+                Some(&instance.transform),
+                i as u32,
+                &mut top.triangles,
+            )?;
         } else {
             placed_by_mesh[instance.mesh as usize].push(i);
         }
@@ -301,16 +329,28 @@ pub(super) fn build(scene: &Scene, options: &BuildOptions) -> Result<Accel, Acce
                 continue;
             }
             top.instances.push((bounds, placements.len() as u32));
-            placements.push(Placement { inverse: transform.inverse(), root, instance: i as u32 });
+            placements.push(Placement {
+                inverse: transform.inverse(),
+                root,
+                instance: i as u32,
+            });
         }
     }
     let root = builder.add(&top, options)?;
     let (root, needed) = root.unwrap_or((Link::EMPTY, 0));
     Ok(Accel {
-        nodes: if root == Link::EMPTY { Vec::new() } else { in_huge_pages(builder.nodes) },
+        nodes: if root == Link::EMPTY {
+            Vec::new()
+        } else {
+            in_huge_pages(builder.nodes)
+        },
         packs: in_huge_pages(builder.packs),
         placements,
-        masks: scene.instances.iter().map(|i| visibility_mask(&i.visibility)).collect(),
+        masks: scene
+            .instances
+            .iter()
+            .map(|i| visibility_mask(&i.visibility))
+            .collect(),
         root,
         depth: depth + needed + 1,
         dropped: builder.dropped,

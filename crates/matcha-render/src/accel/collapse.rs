@@ -44,7 +44,10 @@ pub(super) trait Leaves {
 }
 
 fn bounds_of(aabb: &Aabb) -> Bounds {
-    Bounds { min: aabb.min.into(), max: aabb.max.into() }
+    Bounds {
+        min: aabb.min.into(),
+        max: aabb.max.into(),
+    }
 }
 
 /// Appends the wide form of `tree` to `nodes` and returns the link to its root and the number of
@@ -55,7 +58,13 @@ pub(super) fn collapse(
     leaves: &mut dyn Leaves,
 ) -> (Link, usize) {
     let table = solve(tree, leaves);
-    let mut writer = Writer { tree, table: &table, nodes, leaves, members: Vec::new() };
+    let mut writer = Writer {
+        tree,
+        table: &table,
+        nodes,
+        leaves,
+        members: Vec::new(),
+    };
     writer.write()
 }
 
@@ -75,7 +84,11 @@ fn children_first(tree: &Bvh2) -> Vec<u32> {
 }
 
 fn solve(tree: &Bvh2, leaves: &dyn Leaves) -> Vec<Entry> {
-    let empty = Entry { cost: [0.0; WIDTH - 1], choice: [Choice::Leaf; WIDTH - 1], primitives: 0 };
+    let empty = Entry {
+        cost: [0.0; WIDTH - 1],
+        choice: [Choice::Leaf; WIDTH - 1],
+        primitives: 0,
+    };
     let mut table = vec![empty; tree.nodes.len()];
     for index in children_first(tree) {
         let node = &tree.nodes[index as usize];
@@ -87,7 +100,11 @@ fn solve(tree: &Bvh2, leaves: &dyn Leaves) -> Vec<Entry> {
             Entry {
                 cost: [area * PACK_COST; WIDTH - 1],
                 choice: [Choice::Leaf; WIDTH - 1],
-                primitives: if shared { node.prim_count.min(255) as u8 } else { u8::MAX },
+                primitives: if shared {
+                    node.prim_count.min(255) as u8
+                } else {
+                    u8::MAX
+                },
             }
         } else {
             let first = node.first_index as usize;
@@ -129,7 +146,11 @@ fn inner(area: f32, left: &Entry, right: &Entry) -> Entry {
         let (cost, to_left) = split(ways);
         let better = cost < entry.cost[ways - 2];
         entry.cost[ways - 1] = if better { cost } else { entry.cost[ways - 2] };
-        entry.choice[ways - 1] = if better { Choice::Split(to_left) } else { Choice::Fewer };
+        entry.choice[ways - 1] = if better {
+            Choice::Split(to_left)
+        } else {
+            Choice::Fewer
+        };
     }
     entry
 }
@@ -186,7 +207,10 @@ impl Writer<'_> {
     fn children(&self, binary: u32, to_left: u8) -> Vec<(u32, Option<u8>)> {
         let mut children = Vec::with_capacity(WIDTH);
         let first = self.tree.nodes[binary as usize].first_index;
-        let mut pending = vec![(first + 1, WIDTH - to_left as usize), (first, to_left as usize)];
+        let mut pending = vec![
+            (first + 1, WIDTH - to_left as usize),
+            (first, to_left as usize),
+        ];
         while let Some((node, ways)) = pending.pop() {
             match self.table[node as usize].choice[ways - 1] {
                 Choice::Leaf => children.push((node, None)),

@@ -66,7 +66,13 @@ impl Kernel for Portable {
     #[inline(always)]
     fn new(origin: Vec3, direction: Vec3, t_min: f32) -> Self {
         let inverse = inverse(direction);
-        Self { origin, direction, inverse, near: near_rows(inverse), t_min }
+        Self {
+            origin,
+            direction,
+            inverse,
+            near: near_rows(inverse),
+            t_min,
+        }
     }
 
     #[inline(always)]
@@ -91,7 +97,12 @@ impl Kernel for Portable {
 
     #[inline(always)]
     fn triangles(&self, pack: &Pack, t_max: f32) -> PackHits {
-        let mut hits = PackHits { mask: 0, t: [0.0; PACK], u: [0.0; PACK], v: [0.0; PACK] };
+        let mut hits = PackHits {
+            mask: 0,
+            t: [0.0; PACK],
+            u: [0.0; PACK],
+            v: [0.0; PACK],
+        };
         for lane in 0..PACK {
             let [a, b, c] = pack.triangle(lane).map(|corner| corner - self.origin);
             let (edge_ca, edge_ab, edge_bc) = (c - a, a - b, b - c);

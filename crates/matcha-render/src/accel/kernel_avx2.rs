@@ -31,13 +31,25 @@ type Lanes = [__m128; 3];
 #[inline(always)]
 unsafe fn sub(a: Lanes, b: Lanes) -> Lanes {
     // SAFETY: the caller has checked for AVX.
-    unsafe { [_mm_sub_ps(a[0], b[0]), _mm_sub_ps(a[1], b[1]), _mm_sub_ps(a[2], b[2])] }
+    unsafe {
+        [
+            _mm_sub_ps(a[0], b[0]),
+            _mm_sub_ps(a[1], b[1]),
+            _mm_sub_ps(a[2], b[2]),
+        ]
+    }
 }
 
 #[inline(always)]
 unsafe fn add(a: Lanes, b: Lanes) -> Lanes {
     // SAFETY: the caller has checked for AVX.
-    unsafe { [_mm_add_ps(a[0], b[0]), _mm_add_ps(a[1], b[1]), _mm_add_ps(a[2], b[2])] }
+    unsafe {
+        [
+            _mm_add_ps(a[0], b[0]),
+            _mm_add_ps(a[1], b[1]),
+            _mm_add_ps(a[2], b[2]),
+        ]
+    }
 }
 
 #[inline(always)]
@@ -64,7 +76,13 @@ impl Kernel for Avx2 {
         let inverse = inverse(direction);
         // SAFETY: only walks that were chosen because the processor has AVX2 construct this.
         unsafe {
-            let all = |v: Vec3| [_mm256_set1_ps(v.x), _mm256_set1_ps(v.y), _mm256_set1_ps(v.z)];
+            let all = |v: Vec3| {
+                [
+                    _mm256_set1_ps(v.x),
+                    _mm256_set1_ps(v.y),
+                    _mm256_set1_ps(v.z),
+                ]
+            };
             Self {
                 origin: all(origin),
                 inverse: all(inverse),
@@ -80,7 +98,10 @@ impl Kernel for Avx2 {
     #[inline(always)]
     fn boxes(&self, node: &Node, t_max: f32) -> BoxHits {
         let rows = node.bounds.as_ptr().cast::<f32>();
-        let mut hits = BoxHits { mask: 0, entry: [0.0; WIDTH] };
+        let mut hits = BoxHits {
+            mask: 0,
+            entry: [0.0; WIDTH],
+        };
         // SAFETY: AVX2 as in `new`; `near` is below 6 and so is `near ^ 1`, and a row of the
         // 64-byte aligned node is 32 bytes.
         unsafe {
@@ -109,11 +130,24 @@ impl Kernel for Avx2 {
 
     #[inline(always)]
     fn triangles(&self, pack: &Pack, t_max: f32) -> PackHits {
-        let mut hits = PackHits { mask: 0, t: [0.0; PACK], u: [0.0; PACK], v: [0.0; PACK] };
+        let mut hits = PackHits {
+            mask: 0,
+            t: [0.0; PACK],
+            u: [0.0; PACK],
+            v: [0.0; PACK],
+        };
         // SAFETY: AVX2 and FMA as in `new`; rows of the 16-byte aligned pack are 16 bytes.
         unsafe {
-            let origin = [splat(self.position.x), splat(self.position.y), splat(self.position.z)];
-            let ray = [splat(self.direction.x), splat(self.direction.y), splat(self.direction.z)];
+            let origin = [
+                splat(self.position.x),
+                splat(self.position.y),
+                splat(self.position.z),
+            ];
+            let ray = [
+                splat(self.direction.x),
+                splat(self.direction.y),
+                splat(self.direction.z),
+            ];
             let corner = |c: usize| {
                 let rows = &pack.corners[c];
                 sub([0, 1, 2].map(|a| _mm_load_ps(rows[a].as_ptr())), origin)
@@ -134,8 +168,10 @@ impl Kernel for Avx2 {
             }
             let normal = cross(edge_ab, edge_ca);
             let t = _mm_div_ps(dot(normal, a), dot(normal, ray));
-            let within =
-                _mm_and_ps(_mm_cmpgt_ps(t, splat(self.t_min)), _mm_cmplt_ps(t, splat(t_max)));
+            let within = _mm_and_ps(
+                _mm_cmpgt_ps(t, splat(self.t_min)),
+                _mm_cmplt_ps(t, splat(t_max)),
+            );
             hits.mask = _mm_movemask_ps(_mm_and_ps(inside, within)) as u32;
             let scale = _mm_div_ps(splat(1.0), sum);
             _mm_storeu_ps(hits.t.as_mut_ptr(), t);

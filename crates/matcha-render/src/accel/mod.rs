@@ -97,7 +97,12 @@ impl Accel {
     /// Takes instances that let light through out of the sight of shadow rays and shows them
     /// to [`ray_kind::TRANSPARENT_SHADOW`] rays instead. `transparent` has an entry an instance.
     pub fn part_shadows(&mut self, transparent: &[bool]) {
-        for (mask, _) in self.masks.iter_mut().zip(transparent).filter(|(_, is)| **is) {
+        for (mask, _) in self
+            .masks
+            .iter_mut()
+            .zip(transparent)
+            .filter(|(_, is)| **is)
+        {
             if *mask & ray_kind::SHADOW != 0 {
                 *mask = *mask & !ray_kind::SHADOW | ray_kind::TRANSPARENT_SHADOW;
             }

@@ -105,7 +105,10 @@ impl Node {
 
     pub(super) fn child_bounds(&self, slot: usize) -> Bounds {
         let row = |r: usize| self.bounds[r][slot];
-        Bounds { min: Vec3::new(row(0), row(2), row(4)), max: Vec3::new(row(1), row(3), row(5)) }
+        Bounds {
+            min: Vec3::new(row(0), row(2), row(4)),
+            max: Vec3::new(row(1), row(3), row(5)),
+        }
     }
 }
 
@@ -117,7 +120,10 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    pub(super) const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+    pub(super) const EMPTY: Self = Self {
+        min: Vec3::INFINITY,
+        max: Vec3::NEG_INFINITY,
+    };
 
     pub(super) fn grow(&mut self, point: Vec3) {
         self.min = self.min.min(point);

@@ -97,7 +97,11 @@ pub fn offset_origin(point: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
     const NEAR_ORIGIN: f32 = 1.0 / 32.0;
     const FIXED: f32 = 1.0 / 65536.0;
     const ULPS: f32 = 256.0;
-    let side = if normal.dot(direction) < 0.0 { -normal } else { normal };
+    let side = if normal.dot(direction) < 0.0 {
+        -normal
+    } else {
+        normal
+    };
     let axis = |p: f32, n: f32| {
         if p.abs() < NEAR_ORIGIN {
             return p + FIXED * n;
@@ -106,5 +110,9 @@ pub fn offset_origin(point: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
         let bits = p.to_bits() as i32;
         f32::from_bits(bits.wrapping_add(if p < 0.0 { -ulps } else { ulps }) as u32)
     };
-    Vec3::new(axis(point.x, side.x), axis(point.y, side.y), axis(point.z, side.z))
+    Vec3::new(
+        axis(point.x, side.x),
+        axis(point.y, side.y),
+        axis(point.z, side.z),
+    )
 }

@@ -4,7 +4,9 @@ use glam::{Affine3A, Mat3, Vec3, Vec4};
 use proptest::prelude::*;
 
 pub(crate) fn random(state: &mut u64) -> f32 {
-    *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+    *state = state
+        .wrapping_mul(6364136223846793005)
+        .wrapping_add(1442695040888963407);
     ((*state >> 40) as f32) / (1u64 << 24) as f32
 }
 
@@ -13,10 +15,14 @@ fn random_vec(state: &mut u64) -> Vec3 {
 }
 
 fn soup(triangles: usize, size: f32, state: &mut u64) -> Mesh {
-    let mut mesh = Mesh { name: "soup".into(), ..Mesh::default() };
+    let mut mesh = Mesh {
+        name: "soup".into(),
+        ..Mesh::default()
+    };
     for i in 0..triangles as u32 {
         let center = random_vec(state);
-        mesh.positions.extend([0; 3].map(|_| center + random_vec(state) * size));
+        mesh.positions
+            .extend([0; 3].map(|_| center + random_vec(state) * size));
         mesh.indices.push([3 * i, 3 * i + 1, 3 * i + 2]);
     }
     mesh
@@ -38,19 +44,25 @@ fn place(mesh: u32, transform: Affine3A) -> Instance {
 
 fn scene(meshes: usize, instances: usize, triangles: usize, seed: u64) -> Scene {
     let mut state = seed;
-    let mut scene = Scene::default();
-    scene.meshes = (0..meshes).map(|_| soup(triangles, 0.2, &mut state)).collect();
-    scene.instances = (0..instances)
+    let meshes: Vec<Mesh> = (0..meshes)
+        .map(|_| soup(triangles, 0.2, &mut state))
+        .collect();
+    let instances = (0..instances)
         .map(|i| {
             let linear = Mat3::from_rotation_y(random(&mut state) * 6.0)
                 * Mat3::from_diagonal(random_vec(&mut state) + Vec3::splat(1.5));
+            let offset = random_vec(&mut state) * 3.0;
             place(
-                (i % meshes) as u32,
-                Affine3A::from_mat3_translation(linear, random_vec(&mut state) * 3.0),
+                (i % meshes.len()) as u32,
+                Affine3A::from_mat3_translation(linear, offset),
             )
         })
         .collect();
-    scene
+    Scene {
+        meshes,
+        instances,
+        ..Scene::default()
+    }
 }
 
 /// Every triangle of every instance in f64, by Möller and Trumbore.
@@ -67,7 +79,10 @@ fn brute_force(scene: &Scene, ray: &Ray) -> Option<(u32, u32, f64)> {
                 continue;
             }
             let [a, b, c] = triangle.map(|v| {
-                instance.transform.transform_point3(mesh.positions[v as usize]).as_dvec3()
+                instance
+                    .transform
+                    .transform_point3(mesh.positions[v as usize])
+                    .as_dvec3()
             });
             if [a, b, c].iter().any(|p| p.abs().max_element() > 1e18) {
                 continue;
@@ -121,14 +136,21 @@ fn every_way_to_build_agrees_with_brute_force() {
     for (budget, pre_split) in [(0, false), (0, true), (150, false), (1 << 20, true)] {
         let flat_triangles = Some(budget);
         let scene = scene(3, 12, 60, 7);
-        let options = BuildOptions { flat_triangles, pre_split, ..BuildOptions::default() };
+        let options = BuildOptions {
+            flat_triangles,
+            pre_split,
+            ..BuildOptions::default()
+        };
         let mut accel = Accel::build_with(&scene, &options).unwrap();
         accel.validate().unwrap();
         let differ = agree(&scene, &accel, 3000, 11);
         assert!(differ <= 3, "{differ} of 3000 rays differ ({options:?})");
         accel.use_portable_kernel();
         let differ = agree(&scene, &accel, 3000, 11);
-        assert!(differ <= 3, "{differ} of 3000 rays differ, portable ({options:?})");
+        assert!(
+            differ <= 3,
+            "{differ} of 3000 rays differ, portable ({options:?})"
+        );
     }
 }
 
@@ -154,7 +176,9 @@ fn hits_weigh_the_corners() {
     });
     scene.instances.push(place(0, Affine3A::IDENTITY));
     let accel = Accel::build(&scene).unwrap();
-    let hit = accel.closest(&Ray::new(Vec3::new(0.2, 0.3, 2.0), Vec3::NEG_Z)).unwrap();
+    let hit = accel
+        .closest(&Ray::new(Vec3::new(0.2, 0.3, 2.0), Vec3::NEG_Z))
+        .unwrap();
     assert!((hit.u - 0.2).abs() < 1e-6 && (hit.v - 0.3).abs() < 1e-6 && (hit.t - 2.0).abs() < 1e-6);
 }
 
@@ -174,7 +198,10 @@ fn unsound_triangles_are_dropped() {
     mesh.positions[8].z = f32::INFINITY;
     mesh.positions[9].y = 3e30;
     for flat_triangles in [Some(0), Some(1000)] {
-        let options = BuildOptions { flat_triangles, ..BuildOptions::default() };
+        let options = BuildOptions {
+            flat_triangles,
+            ..BuildOptions::default()
+        };
         let accel = Accel::build_with(&scene, &options).unwrap();
         assert_eq!(accel.dropped_triangles(), 4);
         accel.validate().unwrap();
@@ -186,8 +213,16 @@ fn unsound_triangles_are_dropped() {
 fn unsound_rays_hit_nothing() {
     let accel = Accel::build(&scene(1, 1, 50, 1)).unwrap();
     for bad in [f32::NAN, f32::INFINITY] {
-        assert!(accel.closest(&Ray::new(Vec3::splat(bad), Vec3::X)).is_none());
-        assert!(accel.closest(&Ray::new(Vec3::ZERO, Vec3::new(bad, 1.0, 0.0))).is_none());
+        assert!(
+            accel
+                .closest(&Ray::new(Vec3::splat(bad), Vec3::X))
+                .is_none()
+        );
+        assert!(
+            accel
+                .closest(&Ray::new(Vec3::ZERO, Vec3::new(bad, 1.0, 0.0)))
+                .is_none()
+        );
     }
     assert!(accel.closest(&Ray::new(Vec3::ZERO, Vec3::ZERO)).is_none());
 }
@@ -198,11 +233,18 @@ fn lying_indices_are_errors() {
     broken.meshes[0].indices[2][1] = 99;
     assert!(matches!(
         Accel::build(&broken),
-        Err(AccelError::VertexIndex { triangle: 2, vertex: 99, .. })
+        Err(AccelError::VertexIndex {
+            triangle: 2,
+            vertex: 99,
+            ..
+        })
     ));
     let mut broken = scene(1, 1, 5, 1);
     broken.instances[0].mesh = 4;
-    assert!(matches!(Accel::build(&broken), Err(AccelError::MeshIndex { mesh: 4, .. })));
+    assert!(matches!(
+        Accel::build(&broken),
+        Err(AccelError::MeshIndex { mesh: 4, .. })
+    ));
 }
 
 #[test]
@@ -210,7 +252,10 @@ fn a_flattened_or_collapsed_instance_does_no_harm() {
     let mut scene = scene(1, 3, 40, 9);
     scene.instances[1].transform = Affine3A::from_scale(Vec3::new(1.0, 1.0, 0.0));
     scene.instances[2].transform = Affine3A::from_scale(Vec3::ZERO);
-    let options = BuildOptions { flat_triangles: Some(0), ..BuildOptions::default() };
+    let options = BuildOptions {
+        flat_triangles: Some(0),
+        ..BuildOptions::default()
+    };
     let accel = Accel::build_with(&scene, &options).unwrap();
     accel.validate().unwrap();
     assert!(agree(&scene, &accel, 1000, 4) <= 2);
@@ -219,13 +264,20 @@ fn a_flattened_or_collapsed_instance_does_no_harm() {
 #[test]
 fn coincident_triangles_make_no_trouble() {
     let mut scene = Scene::default();
-    let mut mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], ..Mesh::default() };
+    let mut mesh = Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+        ..Mesh::default()
+    };
     mesh.indices = vec![[0, 1, 2]; 5000];
     scene.meshes.push(mesh);
     scene.instances.push(place(0, Affine3A::IDENTITY));
     let accel = Accel::build(&scene).unwrap();
     accel.validate().unwrap();
-    assert!(accel.closest(&Ray::new(Vec3::new(0.2, 0.2, 1.0), Vec3::NEG_Z)).is_some());
+    assert!(
+        accel
+            .closest(&Ray::new(Vec3::new(0.2, 0.2, 1.0), Vec3::NEG_Z))
+            .is_some()
+    );
 }
 
 #[test]
@@ -235,12 +287,19 @@ fn visibility_and_exclusion_hide() {
         let mut scene = scene(2, 6, 80, 21);
         scene.instances[0].visibility.camera = false;
         scene.instances[1].visibility.shadow = false;
-        let options = BuildOptions { flat_triangles, ..BuildOptions::default() };
+        let options = BuildOptions {
+            flat_triangles,
+            ..BuildOptions::default()
+        };
         let accel = Accel::build_with(&scene, &options).unwrap();
         let mut differ = 0;
         for _ in 0..1000 {
             let mut ray = Ray::new(random_vec(&mut state) * 5.0, random_vec(&mut state));
-            ray.mask = if random(&mut state) < 0.5 { ray_kind::CAMERA } else { ray_kind::SHADOW };
+            ray.mask = if random(&mut state) < 0.5 {
+                ray_kind::CAMERA
+            } else {
+                ray_kind::SHADOW
+            };
             if let Some(first) = accel.closest(&ray) {
                 ray.excluded = [first.instance, first.primitive];
             }
@@ -260,8 +319,16 @@ fn closed_surface() -> Mesh {
         for s in 0..sectors {
             let theta = std::f32::consts::PI * r as f32 / rings as f32;
             let phi = std::f32::consts::TAU * s as f32 / sectors as f32;
-            let ring = if r == 0 || r == rings { 0.0 } else { theta.sin() };
-            mesh.positions.push(Vec3::new(ring * phi.cos(), ring * phi.sin(), theta.cos() * 0.3));
+            let ring = if r == 0 || r == rings {
+                0.0
+            } else {
+                theta.sin()
+            };
+            mesh.positions.push(Vec3::new(
+                ring * phi.cos(),
+                ring * phi.sin(),
+                theta.cos() * 0.3,
+            ));
         }
     }
     for r in 0..rings {
@@ -300,7 +367,10 @@ fn edges_of_a_closed_surface_are_tight() {
             let origin = random_vec(&mut state) * 0.1;
             let along = a.lerp(b, 0.05 + 0.9 * random(&mut state));
             let ray = Ray::new(origin, along - origin);
-            assert!(accel.occluded(&ray), "{ray:?} slipped through (portable {portable})");
+            assert!(
+                accel.occluded(&ray),
+                "{ray:?} slipped through (portable {portable})"
+            );
         }
     }
 }

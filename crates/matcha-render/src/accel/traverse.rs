@@ -109,14 +109,26 @@ fn accept(
         if hits.t[lane] >= nearest.t {
             continue;
         }
-        let instance = if inside == NOTHING { pack.instance[lane] } else { inside };
+        let instance = if inside == NOTHING {
+            pack.instance[lane]
+        } else {
+            inside
+        };
         let primitive = pack.primitive[lane];
-        let seen = tree.masks.get(instance as usize).is_some_and(|m| m & ray.mask != 0);
+        let seen = tree
+            .masks
+            .get(instance as usize)
+            .is_some_and(|m| m & ray.mask != 0);
         if !seen || (ray.excluded[1] == primitive && ray.excluded[0] == instance) {
             continue;
         }
-        *nearest =
-            Nearest { t: hits.t[lane], u: hits.u[lane], v: hits.v[lane], instance, primitive };
+        *nearest = Nearest {
+            t: hits.t[lane],
+            u: hits.u[lane],
+            v: hits.v[lane],
+            instance,
+            primitive,
+        };
         any = true;
     }
     any
@@ -131,8 +143,13 @@ fn walk<K: Kernel, const ANY: bool>(
 ) -> Option<Hit> {
     let world = K::new(ray.origin, ray.direction, ray.t_min);
     let mut kernel = world;
-    let mut nearest =
-        Nearest { t: ray.t_max, u: 0.0, v: 0.0, instance: NOTHING, primitive: NOTHING };
+    let mut nearest = Nearest {
+        t: ray.t_max,
+        u: 0.0,
+        v: 0.0,
+        instance: NOTHING,
+        primitive: NOTHING,
+    };
     let mut inside = NOTHING;
     let mut top = 0usize;
     let mut link = tree.root;
@@ -208,8 +225,20 @@ fn walk<K: Kernel, const ANY: bool>(
 
 #[inline(always)]
 fn hit(nearest: &Nearest) -> Option<Hit> {
-    let &Nearest { t, u, v, instance, primitive } = nearest;
-    (instance != NOTHING).then_some(Hit { instance, primitive, t, u, v })
+    let &Nearest {
+        t,
+        u,
+        v,
+        instance,
+        primitive,
+    } = nearest;
+    (instance != NOTHING).then_some(Hit {
+        instance,
+        primitive,
+        t,
+        u,
+        v,
+    })
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -29,7 +29,10 @@ impl Accel {
     }
 
     fn check(&self, root: Link, packs: &mut [bool], placements: &mut [bool]) -> Result<(), String> {
-        let everything = Bounds { min: glam::Vec3::NEG_INFINITY, max: glam::Vec3::INFINITY };
+        let everything = Bounds {
+            min: glam::Vec3::NEG_INFINITY,
+            max: glam::Vec3::INFINITY,
+        };
         let mut stack = vec![(root, everything, 0usize)];
         let mut visited = 0;
         while let Some((link, bounds, entries)) = stack.pop() {
@@ -40,12 +43,21 @@ impl Accel {
             if link.is_leaf() {
                 self.check_leaf(link, &bounds, packs)?;
             } else if link.is_instance() {
-                *placements.get_mut(link.index()).ok_or("placement out of range")? = true;
+                *placements
+                    .get_mut(link.index())
+                    .ok_or("placement out of range")? = true;
             } else if link.is_node() {
                 let node = self.nodes.get(link.index()).ok_or("node out of range")?;
-                let used = node.children.iter().filter(|&&child| child != Link::EMPTY).count();
+                let used = node
+                    .children
+                    .iter()
+                    .filter(|&&child| child != Link::EMPTY)
+                    .count();
                 if entries + used > self.depth {
-                    return Err(format!("a walk needs more than {} stack entries", self.depth));
+                    return Err(format!(
+                        "a walk needs more than {} stack entries",
+                        self.depth
+                    ));
                 }
                 for slot in (0..WIDTH).filter(|&s| node.children[s] != Link::EMPTY) {
                     let inner = node.child_bounds(slot);
@@ -65,10 +77,12 @@ impl Accel {
     fn check_leaf(&self, link: Link, bounds: &Bounds, seen: &mut [bool]) -> Result<(), String> {
         for index in link.index()..link.index() + link.packs() {
             let pack = self.packs.get(index).ok_or("pack out of range")?;
-            seen[index] = true;
+            *seen.get_mut(index).ok_or("pack out of range")? = true;
             for lane in (0..super::node::PACK).filter(|&l| pack.primitive[l] != u32::MAX) {
                 let mut own = Bounds::EMPTY;
-                pack.triangle(lane).into_iter().for_each(|corner| own.grow(corner));
+                pack.triangle(lane)
+                    .into_iter()
+                    .for_each(|corner| own.grow(corner));
                 if own.min.cmpgt(bounds.max).any() || own.max.cmplt(bounds.min).any() {
                     return Err(format!("pack {index} lies outside of its leaf's box"));
                 }

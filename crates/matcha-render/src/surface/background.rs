@@ -58,5 +58,9 @@ fn quantity(view: &View, input: Input, ray: &BackgroundRay) -> [f32; 4] {
 fn along(part: Part, ray: &BackgroundRay) -> Vec3 {
     let (first, second) = ray.direction.any_orthonormal_pair();
     let radius = 0.5 * ray.cone_spread;
-    if part == Part::AxisA { first * radius } else { second * radius }
+    if part == Part::AxisA {
+        first * radius
+    } else {
+        second * radius
+    }
 }

@@ -35,7 +35,10 @@ pub fn ellipse_axes(direction: Vec3, normal: Vec3, width: f32) -> [Vec3; 2] {
         normal.any_orthonormal_vector()
     };
     let radius = 0.5 * width;
-    [unit * (radius / cosine.abs().max(LEAST_COSINE)), normal.cross(unit) * radius]
+    [
+        unit * (radius / cosine.abs().max(LEAST_COSINE)),
+        normal.cross(unit) * radius,
+    ]
 }
 
 /// Spread of a cone, per metre, after a scattering: `alpha` is the square of the closure's
@@ -43,6 +46,10 @@ pub fn ellipse_axes(direction: Vec3, normal: Vec3, width: f32) -> [Vec3; 2] {
 /// proportion to its width until it is as wide as a diffuse one's.
 #[inline(always)]
 pub fn spread_after_scattering(spread: f32, alpha: f32, diffuse: bool) -> f32 {
-    let added = if diffuse { 1.0 } else { (2.0 * alpha).clamp(0.0, 1.0) };
+    let added = if diffuse {
+        1.0
+    } else {
+        (2.0 * alpha).clamp(0.0, 1.0)
+    };
     (spread.abs() + DIFFUSE_SPREAD * added).min(1.0)
 }

@@ -16,7 +16,9 @@ pub(super) struct Sink<'a> {
 impl<'a> Sink<'a> {
     /// `width` rows from `first` on, cut to `n` points.
     pub(super) fn new(rows: &'a mut Rows, width: usize, first: usize, n: usize) -> Self {
-        let mut sink = Self { rows: Default::default() };
+        let mut sink = Self {
+            rows: Default::default(),
+        };
         for (slot, row) in sink.rows.iter_mut().zip(rows.rows_mut(first, width)) {
             *slot = &mut row[..n];
         }
@@ -41,8 +43,11 @@ fn each<const N: usize>(
     value: impl Fn(&SurfacePoint) -> [f32; N],
 ) {
     let mut targets = rows.rows_mut(first, N);
-    let targets: [&mut [f32]; N] =
-        std::array::from_fn(|_| targets.next().map_or(&mut [][..], |row| &mut row[..points.len()]));
+    let targets: [&mut [f32]; N] = std::array::from_fn(|_| {
+        targets
+            .next()
+            .map_or(&mut [][..], |row| &mut row[..points.len()])
+    });
     for (i, point) in points.iter().enumerate() {
         let value = value(point);
         for c in 0..N {
@@ -89,7 +94,11 @@ where
 /// A world vector of a part.
 #[inline(always)]
 fn axis(point: &SurfacePoint, part: Part) -> Vec3 {
-    if part == Part::AxisA { point.axes[0] } else { point.axes[1] }
+    if part == Part::AxisA {
+        point.axes[0]
+    } else {
+        point.axes[1]
+    }
 }
 
 /// Numbers that belong to the path; none for other quantities.
@@ -122,7 +131,10 @@ fn position_gradients(corners: [Vec3; 3], uv: [Vec2; 3]) -> [Vec3; 2] {
     if !inverse.is_finite() {
         return [Vec3::ZERO; 2];
     }
-    [(e1 * d2.y - e2 * d1.y) * inverse, (e2 * d1.x - e1 * d2.x) * inverse]
+    [
+        (e1 * d2.y - e2 * d1.y) * inverse,
+        (e2 * d1.x - e1 * d2.x) * inverse,
+    ]
 }
 
 /// A scene, its tables and how to find a point's mesh.
@@ -153,24 +165,35 @@ impl Source<'_> {
     fn uv(&self, point: &SurfacePoint, name: u16) -> [Vec2; 3] {
         let mesh = self.instance(point).mesh;
         let set = self.tables.uv_set(self.scene, mesh, name);
-        set.and_then(|set| set.corners.get(point.primitive as usize)).copied().unwrap_or_default()
+        set.and_then(|set| set.corners.get(point.primitive as usize))
+            .copied()
+            .unwrap_or_default()
     }
 
     fn attribute(&self, point: &SurfacePoint, name: u16) -> [Vec4; 3] {
         let mesh = self.instance(point).mesh;
-        let corners = self.tables.attribute(self.scene, mesh, name, point.primitive);
+        let corners = self
+            .tables
+            .attribute(self.scene, mesh, name, point.primitive);
         corners.copied().unwrap_or([Vec4::ZERO; 3])
     }
 
     fn gradients(&self, point: &SurfacePoint, name: u16) -> [Vec3; 2] {
         let transform = self.instance(point).transform;
         let [u, v] = position_gradients(self.corners(point), self.uv(point, name));
-        [transform.transform_vector3(u), transform.transform_vector3(v)]
+        [
+            transform.transform_vector3(u),
+            transform.transform_vector3(v),
+        ]
     }
 
     /// Change of the unit shading normal along an axis.
     fn normal_along(&self, point: &SurfacePoint, part: Part) -> Vec3 {
-        let Some(normals) = self.mesh(point).corner_normals.get(point.primitive as usize) else {
+        let Some(normals) = self
+            .mesh(point)
+            .corner_normals
+            .get(point.primitive as usize)
+        else {
             return Vec3::ZERO;
         };
         let matrix = self.tables.placed[point.instance as usize].normals;
@@ -196,7 +219,11 @@ impl Source<'_> {
             return (unit_or(world, Vec3::ZERO), handedness * corners[0].w);
         }
         let [u, v] = self.gradients(point, name);
-        let front = if point.backfacing { -point.normal } else { point.normal };
+        let front = if point.backfacing {
+            -point.normal
+        } else {
+            point.normal
+        };
         let side = u.cross(v).dot(front);
         let tangent = unit_or(u - front * front.dot(u), Vec3::ZERO);
         (tangent, if side < 0.0 { -1.0 } else { 1.0 })
@@ -208,7 +235,11 @@ impl Source<'_> {
             return linear(point, part, *corners);
         }
         let object = linear(point, part, self.corners(point));
-        let offset = if part == Part::Value { mesh.generated_origin } else { Vec3::ZERO };
+        let offset = if part == Part::Value {
+            mesh.generated_origin
+        } else {
+            Vec3::ZERO
+        };
         let size = mesh.generated_size;
         let scale = |s: f32| if s != 0.0 { 1.0 / s } else { 0.0 };
         (object - offset) * Vec3::new(scale(size.x), scale(size.y), scale(size.z))
@@ -233,14 +264,18 @@ impl Source<'_> {
 
     fn pointiness(&self, point: &SurfacePoint) -> f32 {
         let instance = self.instance(point);
-        let Some(values) = self.tables.pointiness.get(instance.mesh as usize) else { return 0.5 };
+        let Some(values) = self.tables.pointiness.get(instance.mesh as usize) else {
+            return 0.5;
+        };
         let vertices = self.mesh(point).indices[point.primitive as usize];
         linear(point, Part::Value, vertices.map(|v| values[v as usize]))
     }
 
     fn material_index(&self, point: &SurfacePoint) -> f32 {
         let material = material_of(self.scene, point.instance, point.primitive);
-        material.and_then(|m| self.scene.materials.get(m as usize)).map_or(0.0, |m| m.pass_index)
+        material
+            .and_then(|m| self.scene.materials.get(m as usize))
+            .map_or(0.0, |m| m.pass_index)
     }
 
     fn island(&self, point: &SurfacePoint) -> f32 {
@@ -259,7 +294,10 @@ impl SurfaceTables {
         points: &[SurfacePoint],
         rows: &mut Rows,
     ) {
-        let source = Source { tables: self, scene };
+        let source = Source {
+            tables: self,
+            scene,
+        };
         for &(input, first) in inputs {
             if input.part != Part::Value && !input.kind.is_differentiable() {
                 for row in rows.rows_mut(first, input.kind.width()) {
@@ -285,9 +323,13 @@ fn fill_varying(
     use InputKind::*;
     let part = input.part;
     match input.kind {
-        Uv(name) => each(rows, first, points, |p| linear(p, part, source.uv(p, name)).to_array()),
+        Uv(name) => each(rows, first, points, |p| {
+            linear(p, part, source.uv(p, name)).to_array()
+        }),
         Attribute(name) => {
-            each(rows, first, points, |p| linear(p, part, source.attribute(p, name)).to_array());
+            each(rows, first, points, |p| {
+                linear(p, part, source.attribute(p, name)).to_array()
+            });
         }
         Position if part == Part::Value => each3(rows, first, points, |p| p.position),
         Position => each3(rows, first, points, |p| axis(p, part)),
@@ -327,13 +369,17 @@ fn fill_constant(
         Pointiness => each1(rows, first, points, |p| source.pointiness(p)),
         RandomPerIsland => each1(rows, first, points, |p| source.island(p)),
         ObjectLocation => {
-            each3(rows, first, points, |p| source.instance(p).transform.translation.into());
+            each3(rows, first, points, |p| {
+                source.instance(p).transform.translation.into()
+            });
         }
         ObjectColor => each3(rows, first, points, |p| source.instance(p).color.truncate()),
         ObjectAlpha => each1(rows, first, points, |p| source.instance(p).color.w),
         ObjectIndex => each1(rows, first, points, |p| source.instance(p).pass_index),
         ObjectRandom => each1(rows, first, points, |p| source.instance(p).random),
         MaterialIndex => each1(rows, first, points, |p| source.material_index(p)),
-        _ => each1(rows, first, points, |p| path_quantity(kind, &p.path).unwrap_or(0.0)),
+        _ => each1(rows, first, points, |p| {
+            path_quantity(kind, &p.path).unwrap_or(0.0)
+        }),
     }
 }

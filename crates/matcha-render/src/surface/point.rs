@@ -72,7 +72,9 @@ impl SurfaceTables {
         let placed = &self.placed[hit.instance as usize];
         let corners = mesh.indices[hit.primitive as usize].map(|v| mesh.positions[v as usize]);
         let [a, ab, ac] = [corners[0], corners[1] - corners[0], corners[2] - corners[0]];
-        let position = instance.transform.transform_point3(a + ab * hit.u + ac * hit.v);
+        let position = instance
+            .transform
+            .transform_point3(a + ab * hit.u + ac * hit.v);
         let [ab, ac] = [ab, ac].map(|edge| instance.transform.transform_vector3(edge));
         let across = ab.cross(ac) * placed.handedness;
         let front = unit_or(across, -path.direction);

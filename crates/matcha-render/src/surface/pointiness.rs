@@ -38,7 +38,9 @@ fn weld(positions: &[Vec3]) -> Vec<u32> {
         .enumerate()
         // Adding zero makes −0 and 0 the same.
         .map(|(i, p)| {
-            *first.entry((*p + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(i as u32)
+            *first
+                .entry((*p + Vec3::ZERO).to_array().map(f32::to_bits))
+                .or_insert(i as u32)
         })
         .collect()
 }
@@ -70,5 +72,7 @@ fn average(raw: &[f32], edges: &[(u32, u32)]) -> Vec<f32> {
             sums[vertex as usize].1 += 1;
         }
     }
-    sums.into_iter().map(|(sum, count)| sum / count as f32).collect()
+    sums.into_iter()
+        .map(|(sum, count)| sum / count as f32)
+        .collect()
 }

@@ -45,14 +45,26 @@ impl SurfaceTables {
             points |= kind == InputKind::Pointiness;
         }
         let per_mesh = |wanted: bool, measure: fn(&Mesh) -> Vec<f32>| {
-            if wanted { scene.meshes.iter().map(measure).collect() } else { Vec::new() }
+            if wanted {
+                scene.meshes.iter().map(measure).collect()
+            } else {
+                Vec::new()
+            }
         };
         let uv_names = scene.uv_names.len().max(1);
         let attribute_names = scene.attribute_names.len();
         Self {
             view,
-            placed: scene.instances.iter().map(|i| placed(&i.transform)).collect(),
-            uv_sets: scene.meshes.iter().flat_map(|m| layers_of_uv(m, uv_names)).collect(),
+            placed: scene
+                .instances
+                .iter()
+                .map(|i| placed(&i.transform))
+                .collect(),
+            uv_sets: scene
+                .meshes
+                .iter()
+                .flat_map(|m| layers_of_uv(m, uv_names))
+                .collect(),
             uv_names,
             attributes: scene
                 .meshes
@@ -71,7 +83,9 @@ impl SurfaceTables {
         if name as usize >= self.uv_names {
             return None;
         }
-        let layer = *self.uv_sets.get(mesh as usize * self.uv_names + name as usize)?;
+        let layer = *self
+            .uv_sets
+            .get(mesh as usize * self.uv_names + name as usize)?;
         scene.meshes[mesh as usize].uv_sets.get(layer as usize)
     }
 
@@ -87,14 +101,21 @@ impl SurfaceTables {
         if name as usize >= self.attribute_names {
             return None;
         }
-        let layer = *self.attributes.get(mesh as usize * self.attribute_names + name as usize)?;
+        let layer = *self
+            .attributes
+            .get(mesh as usize * self.attribute_names + name as usize)?;
         let layer = scene.meshes[mesh as usize].attributes.get(layer as usize)?;
         layer.corners.get(triangle as usize)
     }
 
     /// Memory, bytes.
     pub fn bytes(&self) -> usize {
-        let floats: usize = self.islands.iter().chain(&self.pointiness).map(Vec::len).sum();
+        let floats: usize = self
+            .islands
+            .iter()
+            .chain(&self.pointiness)
+            .map(Vec::len)
+            .sum();
         size_of_val(&self.placed[..])
             + size_of_val(&self.uv_sets[..])
             + size_of_val(&self.attributes[..])
@@ -114,8 +135,15 @@ fn placed(transform: &glam::Affine3A) -> Placed {
         .iter()
         .map(|column| column.abs().max_element())
         .fold(0.0, f32::max);
-    let normals = if scale > 0.0 { normals * (1.0 / scale) } else { Mat3A::IDENTITY };
-    Placed { normals, handedness }
+    let normals = if scale > 0.0 {
+        normals * (1.0 / scale)
+    } else {
+        Mat3A::IDENTITY
+    };
+    Placed {
+        normals,
+        handedness,
+    }
 }
 
 fn layers_of_uv(mesh: &Mesh, names: usize) -> Vec<u16> {
@@ -125,7 +153,11 @@ fn layers_of_uv(mesh: &Mesh, names: usize) -> Vec<u16> {
             *layer = i as u16;
         }
     }
-    layers[0] = if mesh.active_uv < mesh.uv_sets.len() { mesh.active_uv as u16 } else { MISSING };
+    layers[0] = if mesh.active_uv < mesh.uv_sets.len() {
+        mesh.active_uv as u16
+    } else {
+        MISSING
+    };
     layers
 }
 
@@ -144,13 +176,24 @@ fn layers_of_attributes(mesh: &Mesh, names: usize) -> Vec<u16> {
 pub fn material_of(scene: &Scene, instance: u32, triangle: u32) -> Option<u32> {
     let instance = scene.instances.get(instance as usize)?;
     let mesh = scene.meshes.get(instance.mesh as usize)?;
-    let slot = mesh.slots.get(triangle as usize).map_or(0, |&slot| slot as usize);
-    instance.materials.get(slot).or_else(|| mesh.material_slots.get(slot)).copied()
+    let slot = mesh
+        .slots
+        .get(triangle as usize)
+        .map_or(0, |&slot| slot as usize);
+    instance
+        .materials
+        .get(slot)
+        .or_else(|| mesh.material_slots.get(slot))
+        .copied()
 }
 
 /// Unit length, or `fallback` where there is none.
 #[inline(always)]
 pub(super) fn unit_or(v: Vec3, fallback: Vec3) -> Vec3 {
     let squared = v.length_squared();
-    if squared > f32::MIN_POSITIVE && squared.is_finite() { v / squared.sqrt() } else { fallback }
+    if squared > f32::MIN_POSITIVE && squared.is_finite() {
+        v / squared.sqrt()
+    } else {
+        fallback
+    }
 }

@@ -24,8 +24,15 @@ fn quad() -> Mesh {
         name: "quad".into(),
         indices,
         corner_normals,
-        uv_sets: vec![UvSet { name: 1, corners, tangents: vec![] }],
-        attributes: vec![MeshAttribute { name: 0, corners: attribute }],
+        uv_sets: vec![UvSet {
+            name: 1,
+            corners,
+            tangents: vec![],
+        }],
+        attributes: vec![MeshAttribute {
+            name: 0,
+            corners: attribute,
+        }],
         generated_origin: Vec3::new(0.0, 0.0, -1.0),
         generated_size: Vec3::new(1.0, 2.0, 0.0),
         positions,
@@ -70,7 +77,11 @@ fn view() -> View {
 }
 
 fn tables(scene: &Scene) -> SurfaceTables {
-    SurfaceTables::new(scene, view(), [InputKind::Pointiness, InputKind::RandomPerIsland])
+    SurfaceTables::new(
+        scene,
+        view(),
+        [InputKind::Pointiness, InputKind::RandomPerIsland],
+    )
 }
 
 fn path(direction: Vec3) -> PathInfo {
@@ -89,12 +100,17 @@ fn rows_of(scene: &Scene, points: &[SurfacePoint], kind: InputKind, part: Part) 
     let mut rows = Rows::new(kind.width() + 1, points.len());
     let input = Input { kind, part };
     tables(scene).fill(scene, &[(input, 1)], points, &mut rows);
-    (0..points.len()).map(|i| (0..kind.width()).map(|r| rows.get(r + 1, i)).collect()).collect()
+    (0..points.len())
+        .map(|i| (0..kind.width()).map(|r| rows.get(r + 1, i)).collect())
+        .collect()
 }
 
 fn hit_from(scene: &Scene, origin: Vec3, direction: Vec3) -> SurfacePoint {
     let direction = direction.normalize();
-    let hit = Accel::build(scene).unwrap().closest(&Ray::new(origin, direction)).unwrap();
+    let hit = Accel::build(scene)
+        .unwrap()
+        .closest(&Ray::new(origin, direction))
+        .unwrap();
     tables(scene).point(scene, &hit, &path(direction))
 }
 
@@ -129,7 +145,11 @@ fn cones_grow() {
 
 #[test]
 fn normals_face_the_viewer_on_every_side_and_when_mirrored() {
-    for scale in [Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0), Vec3::new(2.0, 1.0, -0.5)] {
+    for scale in [
+        Vec3::ONE,
+        Vec3::new(-1.0, 1.0, 1.0),
+        Vec3::new(2.0, 1.0, -0.5),
+    ] {
         let scene = scene(Affine3A::from_scale(scale));
         let target = Vec3::new(0.4, 0.5, 0.05) * scale;
         for side in [1.0, -1.0] {
@@ -140,7 +160,10 @@ fn normals_face_the_viewer_on_every_side_and_when_mirrored() {
             assert!(point.normal.dot(point.true_normal) > 0.8);
             assert!((point.normal.length() - 1.0).abs() < 1e-5);
             let to = (target - origin).normalize();
-            assert!((point.position - origin).cross(to).length() < 1e-5, "on the ray");
+            assert!(
+                (point.position - origin).cross(to).length() < 1e-5,
+                "on the ray"
+            );
         }
     }
 }
@@ -150,7 +173,10 @@ fn the_shadow_origin_lies_above_a_convex_surface() {
     let scene = scene(Affine3A::IDENTITY);
     let point = hit_from(&scene, Vec3::new(0.6, 0.3, 2.0), Vec3::NEG_Z);
     let lift = point.shadow_origin - point.position;
-    assert!(lift.dot(point.true_normal) > 0.005 && lift.length() < 0.2, "{lift}");
+    assert!(
+        lift.dot(point.true_normal) > 0.005 && lift.length() < 0.2,
+        "{lift}"
+    );
     let mut flat = scene.clone();
     flat.meshes[0].corner_normals.clear();
     let point = hit_from(&flat, Vec3::new(0.6, 0.3, 2.0), Vec3::NEG_Z);
@@ -194,7 +220,10 @@ fn values_are_those_of_the_corners() {
     let tangent = Vec3::from_slice(&value(InputKind::Tangent(1)));
     assert!(tangent.x > 0.9 && (tangent.length() - 1.0).abs() < 1e-5);
     let [du, dv] = [InputKind::DpDu(1), InputKind::DpDv(1)].map(|k| Vec3::from_slice(&value(k)));
-    assert!((du.x - 0.5).abs() < 1e-5 && (dv.y - 1.0).abs() < 1e-5, "{du} {dv}");
+    assert!(
+        (du.x - 0.5).abs() < 1e-5 && (dv.y - 1.0).abs() < 1e-5,
+        "{du} {dv}"
+    );
 }
 
 #[test]
@@ -202,17 +231,29 @@ fn the_window_is_where_the_camera_sees_the_point() {
     let scene = scene(Affine3A::IDENTITY);
     let middle = hit_from(&scene, Vec3::new(0.5, 0.5, 2.0), Vec3::NEG_Z);
     let window = rows_of(&scene, &[middle], InputKind::Window, Part::Value).remove(0);
-    assert!((window[0] - 0.5).abs() < 1e-5 && (window[1] - 0.5).abs() < 1e-5, "{window:?}");
+    assert!(
+        (window[0] - 0.5).abs() < 1e-5 && (window[1] - 0.5).abs() < 1e-5,
+        "{window:?}"
+    );
     let up = hit_from(&scene, Vec3::new(0.5, 0.9, 2.0), Vec3::NEG_Z);
     let window = rows_of(&scene, &[up], InputKind::Window, Part::Value).remove(0);
-    assert!((window[0] - 0.5).abs() < 1e-5 && window[1] > 0.6, "{window:?}");
+    assert!(
+        (window[0] - 0.5).abs() < 1e-5 && window[1] > 0.6,
+        "{window:?}"
+    );
 }
 
 #[test]
 fn a_mirrored_object_has_the_other_tangent_sign() {
     let sign = |transform: Affine3A| {
         let scene = scene(transform);
-        let hit = Hit { instance: 0, primitive: 0, t: 1.0, u: 0.3, v: 0.3 };
+        let hit = Hit {
+            instance: 0,
+            primitive: 0,
+            t: 1.0,
+            u: 0.3,
+            v: 0.3,
+        };
         let point = tables(&scene).point(&scene, &hit, &path(Vec3::NEG_Z));
         rows_of(&scene, &[point], InputKind::TangentSign(1), Part::Value)[0][0]
     };
@@ -232,9 +273,11 @@ fn pointiness_tells_tips_from_dents_and_islands_differ() {
         mesh.positions.push(Vec3::new(offset, 0.0, side));
         for k in 0..4 {
             let angle = k as f32 * std::f32::consts::FRAC_PI_2;
-            mesh.positions.push(Vec3::new(offset + angle.cos(), angle.sin(), 0.0));
+            mesh.positions
+                .push(Vec3::new(offset + angle.cos(), angle.sin(), 0.0));
         }
-        mesh.indices.extend((0..4).map(|k| [first, first + 1 + k, first + 1 + (k + 1) % 4]));
+        mesh.indices
+            .extend((0..4).map(|k| [first, first + 1 + k, first + 1 + (k + 1) % 4]));
     }
     let values = pointiness::pointiness(mesh);
     assert!(values[0] > 0.55 && values[5] < 0.45, "{values:?}");
@@ -248,7 +291,13 @@ fn the_background_sees_directions() {
     let mut rows = Rows::new(3, 1);
     let mut read = |kind, part| {
         fill_background(&view(), &[(Input { kind, part }, 0)], &[ray], &mut rows);
-        [0, 1, 2].map(|r| if r < kind.width() { rows.get(r, 0) } else { 0.0 })
+        [0, 1, 2].map(|r| {
+            if r < kind.width() {
+                rows.get(r, 0)
+            } else {
+                0.0
+            }
+        })
     };
     assert_eq!(read(InputKind::Generated, Part::Value), [0.6, 0.0, 0.8]);
     assert_eq!(read(InputKind::Incoming, Part::Value), [-0.6, -0.0, -0.8]);

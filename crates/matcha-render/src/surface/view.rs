@@ -32,7 +32,11 @@ impl View {
 
     fn rotate(&self, direction: Vec3) -> Vec3 {
         let axes = &self.camera.axes;
-        Vec3::new(axes.x.dot(direction), axes.y.dot(direction), axes.z.dot(direction))
+        Vec3::new(
+            axes.x.dot(direction),
+            axes.y.dot(direction),
+            axes.z.dot(direction),
+        )
     }
 
     /// Position in the picture, 0 to 1 from its lower left corner; z is 0.
@@ -49,7 +53,9 @@ impl View {
         let plane = match self.camera.kind {
             CAMERA_ORTHOGRAPHIC => p.truncate(),
             CAMERA_PANORAMA => {
-                let latitude = (p.y / p.length().max(f32::MIN_POSITIVE)).clamp(-1.0, 1.0).asin();
+                let latitude = (p.y / p.length().max(f32::MIN_POSITIVE))
+                    .clamp(-1.0, 1.0)
+                    .asin();
                 Vec2::new(p.x.atan2(p.z) / TAU + 0.5, latitude / PI + 0.5)
             }
             _ if p.z != 0.0 => p.truncate() / p.z,

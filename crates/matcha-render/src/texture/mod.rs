@@ -99,9 +99,16 @@ impl Textures for TextureSet {
             }
             return;
         };
-        let points = Points { uv: [u, v], axes: [[au, av], [bu, bv]] };
+        let points = Points {
+            uv: [u, v],
+            axes: [[au, av], [bu, bv]],
+        };
         image.filter_all(&texture, &points, [&mut *r, &mut *g, &mut *b, &mut *a]);
-        let handling = if image.opaque { AlphaHandling::Ignored } else { texture.alpha };
+        let handling = if image.opaque {
+            AlphaHandling::Ignored
+        } else {
+            texture.alpha
+        };
         finish(image, handling, &self.decoder, [r, g, b], a);
     }
 }
@@ -125,7 +132,8 @@ fn finish(
             }
         }
         if image.encoded {
-            row.iter_mut().for_each(|value| *value = decoder.linear(*value));
+            row.iter_mut()
+                .for_each(|value| *value = decoder.linear(*value));
         }
     }
     if handling == AlphaHandling::Ignored {

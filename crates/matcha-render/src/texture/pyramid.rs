@@ -54,7 +54,12 @@ pub(super) fn build_pyramid(image: &Image, associate: bool) -> Option<Vec<Level>
         return None;
     }
     let encoded = image.color_space == ColorSpace::Srgb;
-    let finest = Level { width: image.width, height: image.height, texels, shared };
+    let finest = Level {
+        width: image.width,
+        height: image.height,
+        texels,
+        shared,
+    };
     Some(coarser_levels(finest, encoded))
 }
 
@@ -64,7 +69,9 @@ fn associated_bytes(pixels: &Arc<Vec<[u8; 4]>>, associate: bool) -> Arc<Vec<[u8;
         return pixels.clone();
     }
     let scale = |c: u8, a: u8| ((u32::from(c) * u32::from(a) + 127) / 255) as u8;
-    let texels = pixels.iter().map(|&[r, g, b, a]| [scale(r, a), scale(g, a), scale(b, a), a]);
+    let texels = pixels
+        .iter()
+        .map(|&[r, g, b, a]| [scale(r, a), scale(g, a), scale(b, a), a]);
     Arc::new(texels.collect())
 }
 
@@ -77,8 +84,16 @@ fn associated_floats(
         return pixels.clone();
     }
     let texels = pixels.iter().map(|&[r, g, b, a]| {
-        let [r, g, b] = if linearize { [r, g, b].map(to_linear) } else { [r, g, b] };
-        if associate { [r * a, g * a, b * a, a] } else { [r, g, b, a] }
+        let [r, g, b] = if linearize {
+            [r, g, b].map(to_linear)
+        } else {
+            [r, g, b]
+        };
+        if associate {
+            [r * a, g * a, b * a, a]
+        } else {
+            [r, g, b, a]
+        }
     });
     Arc::new(texels.collect())
 }
@@ -122,9 +137,9 @@ fn halve_finest(level: &Level, encoded: bool) -> Plane {
                 *to = [r, g, b, f32::from(t[3]) / 255.0];
             }
         }),
-        Texels::Floats(texels) => {
-            halve(width, height, |first, to| to.copy_from_slice(&texels[first..][..to.len()]))
-        }
+        Texels::Floats(texels) => halve(width, height, |first, to| {
+            to.copy_from_slice(&texels[first..][..to.len()])
+        }),
     }
 }
 
@@ -172,7 +187,11 @@ fn halve(width: usize, height: usize, row: impl Fn(usize, &mut [[f32; 4]])) -> P
             }
         }
     }
-    Plane { width: half_width, height: half_height, texels }
+    Plane {
+        width: half_width,
+        height: half_height,
+        texels,
+    }
 }
 
 fn store(plane: &Plane, bytes: bool, encoded: bool) -> Level {
@@ -184,5 +203,10 @@ fn store(plane: &Plane, bytes: bool, encoded: bool) -> Level {
     } else {
         Texels::Floats(Arc::new(plane.texels.clone()))
     };
-    Level { width: plane.width as u32, height: plane.height as u32, texels, shared: false }
+    Level {
+        width: plane.width as u32,
+        height: plane.height as u32,
+        texels,
+        shared: false,
+    }
 }

@@ -41,8 +41,11 @@ impl Texture {
         let [[au, av], [bu, bv]] = points.axes.map(|axis| axis.map(|row| &row[..n]));
         let [r, g, b, a] = out.map(|row| &mut row[..n]);
         for i in 0..n {
-            let level =
-                if texture.no_footprint { 0.0 } else { self.level([au[i], av[i]], [bu[i], bv[i]]) };
+            let level = if texture.no_footprint {
+                0.0
+            } else {
+                self.level([au[i], av[i]], [bu[i], bv[i]])
+            };
             [r[i], g[i], b[i], a[i]] = self.filter(texture, [u[i], v[i]], level);
         }
     }
@@ -241,5 +244,9 @@ fn axis<const N: usize>(
 fn wrap(i: i32, size: i32) -> i32 {
     let i = if i < 0 { i + size } else { i };
     let i = if i >= size { i - size } else { i };
-    if (0..size).contains(&i) { i } else { i.rem_euclid(size) }
+    if (0..size).contains(&i) {
+        i
+    } else {
+        i.rem_euclid(size)
+    }
 }

@@ -31,7 +31,9 @@ pub(super) struct Decoder {
 impl Decoder {
     pub(super) fn new() -> Self {
         let at = |i: usize| to_linear(i as f32 / STEPS as f32);
-        Self { table: Box::new(std::array::from_fn(|i| [at(i), at(i + 1) - at(i)])) }
+        Self {
+            table: Box::new(std::array::from_fn(|i| [at(i), at(i + 1) - at(i)])),
+        }
     }
 
     #[inline(always)]

@@ -72,7 +72,15 @@ fn centres_give_texels_with_v_up() {
             let uv = [(x as f32 + 0.5) / 5.0, 1.0 - (y as f32 + 0.5) / 3.0];
             let expected = noise(x, y).map(|c| f32::from(c) / 255.0);
             for interpolation in [Interpolation::Linear, Interpolation::Closest] {
-                let found = look_up(&image, TextureRef { interpolation, ..reference() }, uv, POINT);
+                let found = look_up(
+                    &image,
+                    TextureRef {
+                        interpolation,
+                        ..reference()
+                    },
+                    uv,
+                    POINT,
+                );
                 assert!(near(found, expected, 2e-5), "{found:?} {expected:?}");
             }
         }
@@ -83,7 +91,15 @@ fn centres_give_texels_with_v_up() {
 fn linear_is_halfway_between_centres_and_wraps() {
     let image = image(4, 1, |x, _| [if x == 0 { 255 } else { 0 }; 4]);
     let at = |u: f32, extension| {
-        look_up(&image, TextureRef { extension, ..reference() }, [u, 0.5], POINT)[0]
+        look_up(
+            &image,
+            TextureRef {
+                extension,
+                ..reference()
+            },
+            [u, 0.5],
+            POINT,
+        )[0]
     };
     assert!((at(0.25, Extension::Repeat) - 0.5).abs() < 1e-5);
     for whole in [-3.0, 0.0, 7.0] {
@@ -120,7 +136,13 @@ fn a_footprint_as_large_as_the_image_gives_its_mean() {
 
 #[test]
 fn coarse_levels_average_light_not_numbers() {
-    let mut image = image(2, 2, |x, y| if (x + y) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] });
+    let mut image = image(2, 2, |x, y| {
+        if (x + y) % 2 == 0 {
+            [255; 4]
+        } else {
+            [0, 0, 0, 255]
+        }
+    });
     image.color_space = ColorSpace::Srgb;
     let found = look_up(&image, reference(), [0.5, 0.5], [[1.0, 0.0], [0.0, 1.0]]);
     assert!((found[0] - 0.5).abs() < 0.004, "{found:?}");
@@ -137,11 +159,26 @@ fn magnified_srgb_is_decoded_after_filtering() {
 #[test]
 fn the_shorter_axis_picks_the_level() {
     let image = image(64, 64, |x, _| [if x % 2 == 0 { 255 } else { 0 }; 4]);
-    let thin = look_up(&image, reference(), [0.5 / 64.0, 0.4], [[1.0, 0.0], [0.0, 0.5 / 64.0]]);
+    let thin = look_up(
+        &image,
+        reference(),
+        [0.5 / 64.0, 0.4],
+        [[1.0, 0.0], [0.0, 0.5 / 64.0]],
+    );
     assert!(thin[0] > 0.99, "{thin:?}");
-    let round = look_up(&image, reference(), [0.5 / 64.0, 0.4], [[0.1, 0.0], [0.0, 0.1]]);
+    let round = look_up(
+        &image,
+        reference(),
+        [0.5 / 64.0, 0.4],
+        [[0.1, 0.0], [0.0, 0.1]],
+    );
     assert!((round[0] - 0.5).abs() < 0.01, "{round:?}");
-    let nonsense = look_up(&image, reference(), [0.5 / 64.0, 0.4], [[f32::NAN, 0.0], [0.0, 1.0]]);
+    let nonsense = look_up(
+        &image,
+        reference(),
+        [0.5 / 64.0, 0.4],
+        [[f32::NAN, 0.0], [0.0, 1.0]],
+    );
     assert!(nonsense[0] > 0.99, "{nonsense:?}");
 }
 
@@ -150,10 +187,25 @@ fn alpha_is_treated_as_the_node_asks() {
     let mut image = image(1, 1, |_, _| [200, 100, 50, 128]);
     image.color_space = ColorSpace::LinearRec709;
     let alpha = 128.0 / 255.0;
-    let with = |alpha| look_up(&image, TextureRef { alpha, ..reference() }, [0.5; 2], POINT);
+    let with = |alpha| {
+        look_up(
+            &image,
+            TextureRef {
+                alpha,
+                ..reference()
+            },
+            [0.5; 2],
+            POINT,
+        )
+    };
     assert!(near(
         with(AlphaHandling::Associated),
-        [200.0 / 255.0 * alpha, 100.0 / 255.0 * alpha, 50.0 / 255.0 * alpha, alpha],
+        [
+            200.0 / 255.0 * alpha,
+            100.0 / 255.0 * alpha,
+            50.0 / 255.0 * alpha,
+            alpha
+        ],
         0.003
     ));
     assert!(near(
@@ -165,11 +217,18 @@ fn alpha_is_treated_as_the_node_asks() {
     image.alpha = AlphaMode::ChannelPacked;
     let packed = look_up(
         &image,
-        TextureRef { alpha: AlphaHandling::Unassociated, ..reference() },
+        TextureRef {
+            alpha: AlphaHandling::Unassociated,
+            ..reference()
+        },
         [0.5; 2],
         POINT,
     );
-    assert!(near(packed, [200.0 / 255.0, 100.0 / 255.0, 50.0 / 255.0, alpha], 1e-5));
+    assert!(near(
+        packed,
+        [200.0 / 255.0, 100.0 / 255.0, 50.0 / 255.0, alpha],
+        1e-5
+    ));
     image.alpha = AlphaMode::None;
     assert_eq!(look_up(&image, reference(), [0.5; 2], POINT)[3], 1.0);
 }
@@ -190,7 +249,10 @@ fn missing_and_lying_images_are_pink() {
     let mut broken = image(4, 4, noise);
     broken.height = 9;
     assert_eq!(look_up(&broken, reference(), [0.5; 2], POINT), MISSING);
-    let far = TextureRef { image: 7, ..reference() };
+    let far = TextureRef {
+        image: 7,
+        ..reference()
+    };
     assert_eq!(look_up(&broken, far, [0.5; 2], POINT), MISSING);
     let empty = image(0, 0, noise);
     assert_eq!(look_up(&empty, reference(), [0.5; 2], POINT), MISSING);
