@@ -29,7 +29,7 @@ def light(name, kind, energy, color):
 
 
 def sun():
-    made, data = light("Sun", "SUN", 16.0, (1.0, 0.66, 0.36))
+    made, data = light("Sun", "SUN", 14.0, (1.0, 0.66, 0.36))
     data.angle = math.radians(1.4)
     made.rotation_euler = SUN_DIRECTION.to_track_quat("-Z", "Y").to_euler()
 
@@ -50,7 +50,7 @@ def sky():
     world.use_nodes = True
     ground = world.node_tree.nodes["Background"]
     ground.inputs[0].default_value = (1.0, 0.93, 0.86, 1.0)
-    ground.inputs[1].default_value = 0.36
+    ground.inputs[1].default_value = 0.60
     world.cycles.sampling_method = "NONE"
     for name in ("Lantern Paper", "Garden View"):
         bpy.data.materials[name].cycles.emission_sampling = "NONE"
