@@ -42,9 +42,15 @@ impl CpuBackend {
         let programs = prepared.programs(cached)?;
         let [width, height] = prepared.resolution();
         let settings = &prepared.scene().settings;
+        let cache = make_cache(&options.cache)?;
+        if let Some((table, _)) = &cache
+            && programs.iter().any(|program| !program.regions().is_empty())
+        {
+            table.populate();
+        }
         Ok(Self {
             programs,
-            cache: make_cache(&options.cache)?,
+            cache,
             workers: (0..pool.current_num_threads()).map(|_| Mutex::default()).collect(),
             pool,
             tiles: Tile::cover(width, height),

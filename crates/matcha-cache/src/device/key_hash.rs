@@ -63,6 +63,14 @@ pub fn hash_four_words(x: u32, y: u32, z: u32, w: u32) -> FourWords {
     }
 }
 
+/// Spreads a word's high bits over its low ones, which `pcg4d` leaves weak: the first half
+/// of Wellons' 2018 `lowbias32`, a bijection.
+#[inline(always)]
+pub fn scatter(x: u32) -> u32 {
+    let y = wrapping_mul(x ^ (x >> 16), 0x7FEB352D);
+    y ^ (y >> 15)
+}
+
 /// Seed of a node of a material. `part` numbers the words of a value that takes several.
 #[inline]
 pub fn seed_of_node(material: u32, node: u32, part: u32) -> NodeSeed {
@@ -77,9 +85,10 @@ pub fn hash_texel(seed: NodeSeed, level: i32, i: i32, j: i32) -> KeyHash {
     // differ in the other word.
     let leveled = seed.b ^ wrapping_mul(level as u32, 0x9E3779B9);
     let h = hash_four_words(i as u32, j as u32, seed.a, leveled);
-    let fingerprint = select(h.w, 0xFFFFFFFF, h.w == 0);
+    let whole = scatter(h.w);
+    let fingerprint = select(whole, 0xFFFFFFFF, whole == 0);
     KeyHash {
-        cell: h.z,
+        cell: scatter(h.z),
         fingerprint,
     }
 }
