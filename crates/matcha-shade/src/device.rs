@@ -13,4 +13,6 @@ pub mod shading;
 pub mod texel;
 pub mod vector;
 pub mod voronoi;
-pub mod voronoi_ops;
+pub mod voronoi_edge;
+pub mod voronoi_nearest;
+pub mod voronoi_smooth;

@@ -1,7 +1,7 @@
 //! The prelude of device code: the functions that the translation to WGSL knows by name.
 //!
 //! Everything is branch free in lanes: both arms are computed, then selected. Errors are
-//! against the exact function; `docs/nodes.md` and the tests of this module hold them.
+//! against the exact function; `tests/math.rs` holds them.
 //! None of these calls the C library, whose functions stop a loop over lanes from
 //! becoming vector instructions.
 

@@ -145,12 +145,6 @@ pub fn brick_random(n_in: u32) -> f32 {
     0.5 * ((mixed & 0x7fff_ffff) as i32 as f32 * (1.0 / 1_073_741_824.0))
 }
 
-/// Remainder of whole numbers in floats, 0 where `b` is 0; the sign of `a`.
-#[inline(always)]
-pub fn whole_remainder(a: f32, b: f32) -> f32 {
-    modulo(a, b)
-}
-
 /// Where a point lies in its brick: x, y, width and the brick's random number.
 /// `frequency` packs the offset's in the low and the squash's in the high 16 bits.
 #[inline(always)]
@@ -167,9 +161,9 @@ pub fn brick_place(
     let squash_frequency = (frequency >> 16) as i32 as f32;
     let row = floor(safe_divide(p.y, height));
     let both = (offset_frequency > 0.0) & (squash_frequency > 0.0);
-    let squashed = both & (whole_remainder(row, squash_frequency) == 0.0);
+    let squashed = both & (modulo(row, squash_frequency) == 0.0);
     let width = width_in * select(1.0, squash, squashed);
-    let moved = both & (whole_remainder(row, offset_frequency) == 0.0);
+    let moved = both & (modulo(row, offset_frequency) == 0.0);
     let offset = select(0.0, width * offset_amount, moved);
     let brick = floor(safe_divide(p.x + offset, width));
     let x = p.x + offset - width * brick;

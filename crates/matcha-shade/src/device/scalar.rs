@@ -108,12 +108,6 @@ pub fn scalar_clamp_range(x: f32, low: f32, high: f32) -> f32 {
     clamp(x, min(low, high), max(low, high))
 }
 
-/// Cycles, node Clamp, mode Min Max.
-#[inline(always)]
-pub fn scalar_clamp_min_max(x: f32, low: f32, high: f32) -> f32 {
-    min(max(x, low), high)
-}
-
 /// Cycles, node Map Range, linear.
 #[inline(always)]
 pub fn scalar_map_range(x: f32, from_min: f32, from_max: f32, to_min: f32, to_max: f32) -> f32 {

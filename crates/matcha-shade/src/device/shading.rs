@@ -76,12 +76,6 @@ pub fn uv_gradient(change: Vec2, uv_a: Vec2, uv_b: Vec2) -> Vec2 {
     vec2(u, v)
 }
 
-/// Change along a UV vector of a height with that gradient.
-#[inline(always)]
-pub fn uv_change(gradient: Vec2, uv_a: Vec2, uv_b: Vec2) -> Vec2 {
-    vec2(dot2(gradient, uv_a), dot2(gradient, uv_b))
-}
-
 /// Cycles, node Normal Map, tangent space. `normal` faces the viewer; the map is
 /// applied on the front and turned with the normal.
 #[inline(always)]

@@ -1,6 +1,6 @@
 //! Cellular noise.
 
-use crate::device::voronoi_ops;
+use crate::device::{voronoi_edge, voronoi_nearest, voronoi_smooth};
 
 operations! {
     family cellular;
@@ -9,10 +9,10 @@ operations! {
     voronoi_f1_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1) -> F2 {
         cost: 1.7, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_f1_count_1d,
-            init: voronoi_ops::voronoi_f1_init,
-            step: voronoi_ops::voronoi_f1_step_1d,
-            finish: voronoi_ops::voronoi_f1_finish,
+            count: voronoi_nearest::voronoi_f1_count_1d,
+            init: voronoi_nearest::voronoi_f1_init,
+            step: voronoi_nearest::voronoi_f1_step_1d,
+            finish: voronoi_nearest::voronoi_f1_finish,
             state: 4,
         },
     }
@@ -21,10 +21,10 @@ operations! {
     voronoi_nearest_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
         cost: 1.3, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_metric_count_1d,
-            init: voronoi_ops::voronoi_metric_init,
-            step: voronoi_ops::voronoi_metric_step_1d,
-            finish: voronoi_ops::voronoi_nearest_finish,
+            count: voronoi_nearest::voronoi_metric_count_1d,
+            init: voronoi_nearest::voronoi_metric_init,
+            step: voronoi_nearest::voronoi_metric_step_1d,
+            finish: voronoi_nearest::voronoi_nearest_finish,
             state: 4,
         },
     }
@@ -33,10 +33,10 @@ operations! {
     voronoi_second_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
         cost: 1.4, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_metric_count_1d,
-            init: voronoi_ops::voronoi_metric_init,
-            step: voronoi_ops::voronoi_metric_step_1d,
-            finish: voronoi_ops::voronoi_second_finish,
+            count: voronoi_nearest::voronoi_metric_count_1d,
+            init: voronoi_nearest::voronoi_metric_init,
+            step: voronoi_nearest::voronoi_metric_step_1d,
+            finish: voronoi_nearest::voronoi_second_finish,
             state: 4,
         },
     }
@@ -45,10 +45,10 @@ operations! {
     voronoi_edge_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F2 {
         cost: 1.7, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_edge_count_1d,
-            init: voronoi_ops::voronoi_edge_init_1d,
-            step: voronoi_ops::voronoi_edge_step_1d,
-            finish: voronoi_ops::voronoi_edge_finish,
+            count: voronoi_edge::voronoi_edge_count_1d,
+            init: voronoi_edge::voronoi_edge_init_1d,
+            step: voronoi_edge::voronoi_edge_step_1d,
+            finish: voronoi_edge::voronoi_edge_finish,
             state: 6,
         },
     }
@@ -57,10 +57,10 @@ operations! {
     voronoi_radius_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
         cost: 2.1, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_edge_count_1d,
-            init: voronoi_ops::voronoi_edge_init_1d,
-            step: voronoi_ops::voronoi_radius_step_1d,
-            finish: voronoi_ops::voronoi_radius_finish,
+            count: voronoi_edge::voronoi_edge_count_1d,
+            init: voronoi_edge::voronoi_edge_init_1d,
+            step: voronoi_edge::voronoi_radius_step_1d,
+            finish: voronoi_edge::voronoi_radius_finish,
             state: 6,
         },
     }
@@ -68,23 +68,23 @@ operations! {
     /// A cell's colour in 1 dimension. Cycles, Voronoi Texture.
     voronoi_color_1d(c: F3, cw: F1, cell: F1) -> Color {
         cost: 1.1, error: 0.0,
-        eval: voronoi_ops::voronoi_color_1d,
+        eval: voronoi_nearest::voronoi_color_1d,
     }
 
     /// A cell's point in 1 dimension. Cycles, Voronoi Texture.
     voronoi_position_1d(c: F3, cw: F1, randomness: F1, cell: F1) -> F4 {
         cost: 0.9, error: 1e-5,
-        eval: voronoi_ops::voronoi_position_1d,
+        eval: voronoi_nearest::voronoi_position_1d,
     }
 
     /// Smooth F1's distance in 1 dimension, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_distance_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
         cost: 5.2, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_1d,
-            init: voronoi_ops::voronoi_smooth_distance_init,
-            step: voronoi_ops::voronoi_smooth_distance_step_1d,
-            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            count: voronoi_smooth::voronoi_smooth_count_1d,
+            init: voronoi_smooth::voronoi_smooth_distance_init,
+            step: voronoi_smooth::voronoi_smooth_distance_step_1d,
+            finish: voronoi_smooth::voronoi_smooth_distance_finish,
             state: 1,
         },
     }
@@ -93,10 +93,10 @@ operations! {
     voronoi_smooth_distance_metric_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
         cost: 5.4, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_1d,
-            init: voronoi_ops::voronoi_smooth_distance_init,
-            step: voronoi_ops::voronoi_smooth_distance_metric_step_1d,
-            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            count: voronoi_smooth::voronoi_smooth_count_1d,
+            init: voronoi_smooth::voronoi_smooth_distance_init,
+            step: voronoi_smooth::voronoi_smooth_distance_metric_step_1d,
+            finish: voronoi_smooth::voronoi_smooth_distance_finish,
             state: 1,
         },
     }
@@ -105,10 +105,10 @@ operations! {
     voronoi_smooth_color_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
         cost: 8.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_1d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_1d,
-            finish: voronoi_ops::voronoi_smooth_color,
+            count: voronoi_smooth::voronoi_smooth_count_1d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_step_1d,
+            finish: voronoi_smooth::voronoi_smooth_color,
             state: 8,
         },
     }
@@ -117,10 +117,10 @@ operations! {
     voronoi_smooth_color_metric_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
         cost: 7.9, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_1d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_1d,
-            finish: voronoi_ops::voronoi_smooth_color,
+            count: voronoi_smooth::voronoi_smooth_count_1d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_metric_step_1d,
+            finish: voronoi_smooth::voronoi_smooth_color,
             state: 8,
         },
     }
@@ -129,10 +129,10 @@ operations! {
     voronoi_smooth_position_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
         cost: 8.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_1d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_1d,
-            finish: voronoi_ops::voronoi_smooth_position,
+            count: voronoi_smooth::voronoi_smooth_count_1d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_step_1d,
+            finish: voronoi_smooth::voronoi_smooth_position,
             state: 8,
         },
     }
@@ -141,10 +141,10 @@ operations! {
     voronoi_smooth_position_metric_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
         cost: 7.9, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_1d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_1d,
-            finish: voronoi_ops::voronoi_smooth_position,
+            count: voronoi_smooth::voronoi_smooth_count_1d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_metric_step_1d,
+            finish: voronoi_smooth::voronoi_smooth_position,
             state: 8,
         },
     }
@@ -153,10 +153,10 @@ operations! {
     voronoi_f1_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1) -> F2 {
         cost: 7.4, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_f1_count_2d,
-            init: voronoi_ops::voronoi_f1_init,
-            step: voronoi_ops::voronoi_f1_step_2d,
-            finish: voronoi_ops::voronoi_f1_finish,
+            count: voronoi_nearest::voronoi_f1_count_2d,
+            init: voronoi_nearest::voronoi_f1_init,
+            step: voronoi_nearest::voronoi_f1_step_2d,
+            finish: voronoi_nearest::voronoi_f1_finish,
             state: 4,
         },
     }
@@ -165,10 +165,10 @@ operations! {
     voronoi_nearest_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
         cost: 53.5, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_metric_count_2d,
-            init: voronoi_ops::voronoi_metric_init,
-            step: voronoi_ops::voronoi_metric_step_2d,
-            finish: voronoi_ops::voronoi_nearest_finish,
+            count: voronoi_nearest::voronoi_metric_count_2d,
+            init: voronoi_nearest::voronoi_metric_init,
+            step: voronoi_nearest::voronoi_metric_step_2d,
+            finish: voronoi_nearest::voronoi_nearest_finish,
             state: 4,
         },
     }
@@ -177,10 +177,10 @@ operations! {
     voronoi_second_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
         cost: 53.5, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_metric_count_2d,
-            init: voronoi_ops::voronoi_metric_init,
-            step: voronoi_ops::voronoi_metric_step_2d,
-            finish: voronoi_ops::voronoi_second_finish,
+            count: voronoi_nearest::voronoi_metric_count_2d,
+            init: voronoi_nearest::voronoi_metric_init,
+            step: voronoi_nearest::voronoi_metric_step_2d,
+            finish: voronoi_nearest::voronoi_second_finish,
             state: 4,
         },
     }
@@ -189,10 +189,10 @@ operations! {
     voronoi_edge_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F2 {
         cost: 10.4, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_edge_count_2d,
-            init: voronoi_ops::voronoi_edge_init_2d,
-            step: voronoi_ops::voronoi_edge_step_2d,
-            finish: voronoi_ops::voronoi_edge_finish,
+            count: voronoi_edge::voronoi_edge_count_2d,
+            init: voronoi_edge::voronoi_edge_init_2d,
+            step: voronoi_edge::voronoi_edge_step_2d,
+            finish: voronoi_edge::voronoi_edge_finish,
             state: 6,
         },
     }
@@ -201,10 +201,10 @@ operations! {
     voronoi_radius_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
         cost: 13.7, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_edge_count_2d,
-            init: voronoi_ops::voronoi_edge_init_2d,
-            step: voronoi_ops::voronoi_radius_step_2d,
-            finish: voronoi_ops::voronoi_radius_finish,
+            count: voronoi_edge::voronoi_edge_count_2d,
+            init: voronoi_edge::voronoi_edge_init_2d,
+            step: voronoi_edge::voronoi_radius_step_2d,
+            finish: voronoi_edge::voronoi_radius_finish,
             state: 6,
         },
     }
@@ -212,23 +212,23 @@ operations! {
     /// A cell's colour in 2 dimensions. Cycles, Voronoi Texture.
     voronoi_color_2d(c: F3, cw: F1, cell: F1) -> Color {
         cost: 1.4, error: 0.0,
-        eval: voronoi_ops::voronoi_color_2d,
+        eval: voronoi_nearest::voronoi_color_2d,
     }
 
     /// A cell's point in 2 dimensions. Cycles, Voronoi Texture.
     voronoi_position_2d(c: F3, cw: F1, randomness: F1, cell: F1) -> F4 {
         cost: 1.3, error: 1e-5,
-        eval: voronoi_ops::voronoi_position_2d,
+        eval: voronoi_nearest::voronoi_position_2d,
     }
 
     /// Smooth F1's distance in 2 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_distance_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
         cost: 27.9, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_2d,
-            init: voronoi_ops::voronoi_smooth_distance_init,
-            step: voronoi_ops::voronoi_smooth_distance_step_2d,
-            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            count: voronoi_smooth::voronoi_smooth_count_2d,
+            init: voronoi_smooth::voronoi_smooth_distance_init,
+            step: voronoi_smooth::voronoi_smooth_distance_step_2d,
+            finish: voronoi_smooth::voronoi_smooth_distance_finish,
             state: 1,
         },
     }
@@ -237,10 +237,10 @@ operations! {
     voronoi_smooth_distance_metric_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
         cost: 154.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_2d,
-            init: voronoi_ops::voronoi_smooth_distance_init,
-            step: voronoi_ops::voronoi_smooth_distance_metric_step_2d,
-            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            count: voronoi_smooth::voronoi_smooth_count_2d,
+            init: voronoi_smooth::voronoi_smooth_distance_init,
+            step: voronoi_smooth::voronoi_smooth_distance_metric_step_2d,
+            finish: voronoi_smooth::voronoi_smooth_distance_finish,
             state: 1,
         },
     }
@@ -249,10 +249,10 @@ operations! {
     voronoi_smooth_color_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
         cost: 51.6, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_2d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_2d,
-            finish: voronoi_ops::voronoi_smooth_color,
+            count: voronoi_smooth::voronoi_smooth_count_2d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_step_2d,
+            finish: voronoi_smooth::voronoi_smooth_color,
             state: 8,
         },
     }
@@ -261,10 +261,10 @@ operations! {
     voronoi_smooth_color_metric_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
         cost: 173.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_2d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_2d,
-            finish: voronoi_ops::voronoi_smooth_color,
+            count: voronoi_smooth::voronoi_smooth_count_2d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_metric_step_2d,
+            finish: voronoi_smooth::voronoi_smooth_color,
             state: 8,
         },
     }
@@ -273,10 +273,10 @@ operations! {
     voronoi_smooth_position_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
         cost: 53.2, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_2d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_2d,
-            finish: voronoi_ops::voronoi_smooth_position,
+            count: voronoi_smooth::voronoi_smooth_count_2d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_step_2d,
+            finish: voronoi_smooth::voronoi_smooth_position,
             state: 8,
         },
     }
@@ -285,10 +285,10 @@ operations! {
     voronoi_smooth_position_metric_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
         cost: 175.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_2d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_2d,
-            finish: voronoi_ops::voronoi_smooth_position,
+            count: voronoi_smooth::voronoi_smooth_count_2d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_metric_step_2d,
+            finish: voronoi_smooth::voronoi_smooth_position,
             state: 8,
         },
     }
@@ -297,10 +297,10 @@ operations! {
     voronoi_f1_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1) -> F2 {
         cost: 39.4, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_f1_count_3d,
-            init: voronoi_ops::voronoi_f1_init,
-            step: voronoi_ops::voronoi_f1_step_3d,
-            finish: voronoi_ops::voronoi_f1_finish,
+            count: voronoi_nearest::voronoi_f1_count_3d,
+            init: voronoi_nearest::voronoi_f1_init,
+            step: voronoi_nearest::voronoi_f1_step_3d,
+            finish: voronoi_nearest::voronoi_f1_finish,
             state: 4,
         },
     }
@@ -309,10 +309,10 @@ operations! {
     voronoi_nearest_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
         cost: 208.0, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_metric_count_3d,
-            init: voronoi_ops::voronoi_metric_init,
-            step: voronoi_ops::voronoi_metric_step_3d,
-            finish: voronoi_ops::voronoi_nearest_finish,
+            count: voronoi_nearest::voronoi_metric_count_3d,
+            init: voronoi_nearest::voronoi_metric_init,
+            step: voronoi_nearest::voronoi_metric_step_3d,
+            finish: voronoi_nearest::voronoi_nearest_finish,
             state: 4,
         },
     }
@@ -321,10 +321,10 @@ operations! {
     voronoi_second_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
         cost: 210.0, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_metric_count_3d,
-            init: voronoi_ops::voronoi_metric_init,
-            step: voronoi_ops::voronoi_metric_step_3d,
-            finish: voronoi_ops::voronoi_second_finish,
+            count: voronoi_nearest::voronoi_metric_count_3d,
+            init: voronoi_nearest::voronoi_metric_init,
+            step: voronoi_nearest::voronoi_metric_step_3d,
+            finish: voronoi_nearest::voronoi_second_finish,
             state: 4,
         },
     }
@@ -333,10 +333,10 @@ operations! {
     voronoi_edge_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F2 {
         cost: 48.2, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_edge_count_3d,
-            init: voronoi_ops::voronoi_edge_init_3d,
-            step: voronoi_ops::voronoi_edge_step_3d,
-            finish: voronoi_ops::voronoi_edge_finish,
+            count: voronoi_edge::voronoi_edge_count_3d,
+            init: voronoi_edge::voronoi_edge_init_3d,
+            step: voronoi_edge::voronoi_edge_step_3d,
+            finish: voronoi_edge::voronoi_edge_finish,
             state: 6,
         },
     }
@@ -345,10 +345,10 @@ operations! {
     voronoi_radius_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
         cost: 66.4, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_edge_count_3d,
-            init: voronoi_ops::voronoi_edge_init_3d,
-            step: voronoi_ops::voronoi_radius_step_3d,
-            finish: voronoi_ops::voronoi_radius_finish,
+            count: voronoi_edge::voronoi_edge_count_3d,
+            init: voronoi_edge::voronoi_edge_init_3d,
+            step: voronoi_edge::voronoi_radius_step_3d,
+            finish: voronoi_edge::voronoi_radius_finish,
             state: 6,
         },
     }
@@ -356,23 +356,23 @@ operations! {
     /// A cell's colour in 3 dimensions. Cycles, Voronoi Texture.
     voronoi_color_3d(c: F3, cw: F1, cell: F1) -> Color {
         cost: 2.1, error: 0.0,
-        eval: voronoi_ops::voronoi_color_3d,
+        eval: voronoi_nearest::voronoi_color_3d,
     }
 
     /// A cell's point in 3 dimensions. Cycles, Voronoi Texture.
     voronoi_position_3d(c: F3, cw: F1, randomness: F1, cell: F1) -> F4 {
         cost: 2.3, error: 1e-5,
-        eval: voronoi_ops::voronoi_position_3d,
+        eval: voronoi_nearest::voronoi_position_3d,
     }
 
     /// Smooth F1's distance in 3 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_distance_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
         cost: 210.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_3d,
-            init: voronoi_ops::voronoi_smooth_distance_init,
-            step: voronoi_ops::voronoi_smooth_distance_step_3d,
-            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            count: voronoi_smooth::voronoi_smooth_count_3d,
+            init: voronoi_smooth::voronoi_smooth_distance_init,
+            step: voronoi_smooth::voronoi_smooth_distance_step_3d,
+            finish: voronoi_smooth::voronoi_smooth_distance_finish,
             state: 1,
         },
     }
@@ -381,10 +381,10 @@ operations! {
     voronoi_smooth_distance_metric_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
         cost: 948.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_3d,
-            init: voronoi_ops::voronoi_smooth_distance_init,
-            step: voronoi_ops::voronoi_smooth_distance_metric_step_3d,
-            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            count: voronoi_smooth::voronoi_smooth_count_3d,
+            init: voronoi_smooth::voronoi_smooth_distance_init,
+            step: voronoi_smooth::voronoi_smooth_distance_metric_step_3d,
+            finish: voronoi_smooth::voronoi_smooth_distance_finish,
             state: 1,
         },
     }
@@ -393,10 +393,10 @@ operations! {
     voronoi_smooth_color_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
         cost: 314.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_3d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_3d,
-            finish: voronoi_ops::voronoi_smooth_color,
+            count: voronoi_smooth::voronoi_smooth_count_3d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_step_3d,
+            finish: voronoi_smooth::voronoi_smooth_color,
             state: 8,
         },
     }
@@ -405,10 +405,10 @@ operations! {
     voronoi_smooth_color_metric_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
         cost: 996.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_3d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_3d,
-            finish: voronoi_ops::voronoi_smooth_color,
+            count: voronoi_smooth::voronoi_smooth_count_3d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_metric_step_3d,
+            finish: voronoi_smooth::voronoi_smooth_color,
             state: 8,
         },
     }
@@ -417,10 +417,10 @@ operations! {
     voronoi_smooth_position_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
         cost: 314.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_3d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_3d,
-            finish: voronoi_ops::voronoi_smooth_position,
+            count: voronoi_smooth::voronoi_smooth_count_3d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_step_3d,
+            finish: voronoi_smooth::voronoi_smooth_position,
             state: 8,
         },
     }
@@ -429,10 +429,10 @@ operations! {
     voronoi_smooth_position_metric_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
         cost: 993.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_3d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_3d,
-            finish: voronoi_ops::voronoi_smooth_position,
+            count: voronoi_smooth::voronoi_smooth_count_3d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_metric_step_3d,
+            finish: voronoi_smooth::voronoi_smooth_position,
             state: 8,
         },
     }
@@ -441,10 +441,10 @@ operations! {
     voronoi_f1_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1) -> F2 {
         cost: 199.0, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_f1_count_4d,
-            init: voronoi_ops::voronoi_f1_init,
-            step: voronoi_ops::voronoi_f1_step_4d,
-            finish: voronoi_ops::voronoi_f1_finish,
+            count: voronoi_nearest::voronoi_f1_count_4d,
+            init: voronoi_nearest::voronoi_f1_init,
+            step: voronoi_nearest::voronoi_f1_step_4d,
+            finish: voronoi_nearest::voronoi_f1_finish,
             state: 4,
         },
     }
@@ -453,10 +453,10 @@ operations! {
     voronoi_nearest_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
         cost: 786.0, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_metric_count_4d,
-            init: voronoi_ops::voronoi_metric_init,
-            step: voronoi_ops::voronoi_metric_step_4d,
-            finish: voronoi_ops::voronoi_nearest_finish,
+            count: voronoi_nearest::voronoi_metric_count_4d,
+            init: voronoi_nearest::voronoi_metric_init,
+            step: voronoi_nearest::voronoi_metric_step_4d,
+            finish: voronoi_nearest::voronoi_nearest_finish,
             state: 4,
         },
     }
@@ -465,10 +465,10 @@ operations! {
     voronoi_second_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, exponent: F1, metric: U32) -> F2 {
         cost: 785.0, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_metric_count_4d,
-            init: voronoi_ops::voronoi_metric_init,
-            step: voronoi_ops::voronoi_metric_step_4d,
-            finish: voronoi_ops::voronoi_second_finish,
+            count: voronoi_nearest::voronoi_metric_count_4d,
+            init: voronoi_nearest::voronoi_metric_init,
+            step: voronoi_nearest::voronoi_metric_step_4d,
+            finish: voronoi_nearest::voronoi_second_finish,
             state: 4,
         },
     }
@@ -477,10 +477,10 @@ operations! {
     voronoi_edge_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F2 {
         cost: 227.0, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_edge_count_4d,
-            init: voronoi_ops::voronoi_edge_init_4d,
-            step: voronoi_ops::voronoi_edge_step_4d,
-            finish: voronoi_ops::voronoi_edge_finish,
+            count: voronoi_edge::voronoi_edge_count_4d,
+            init: voronoi_edge::voronoi_edge_init_4d,
+            step: voronoi_edge::voronoi_edge_step_4d,
+            finish: voronoi_edge::voronoi_edge_finish,
             state: 6,
         },
     }
@@ -489,10 +489,10 @@ operations! {
     voronoi_radius_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
         cost: 276.0, error: 1e-4,
         loop: {
-            count: voronoi_ops::voronoi_edge_count_4d,
-            init: voronoi_ops::voronoi_edge_init_4d,
-            step: voronoi_ops::voronoi_radius_step_4d,
-            finish: voronoi_ops::voronoi_radius_finish,
+            count: voronoi_edge::voronoi_edge_count_4d,
+            init: voronoi_edge::voronoi_edge_init_4d,
+            step: voronoi_edge::voronoi_radius_step_4d,
+            finish: voronoi_edge::voronoi_radius_finish,
             state: 6,
         },
     }
@@ -500,23 +500,23 @@ operations! {
     /// A cell's colour in 4 dimensions. Cycles, Voronoi Texture.
     voronoi_color_4d(c: F3, cw: F1, cell: F1) -> Color {
         cost: 2.5, error: 0.0,
-        eval: voronoi_ops::voronoi_color_4d,
+        eval: voronoi_nearest::voronoi_color_4d,
     }
 
     /// A cell's point in 4 dimensions. Cycles, Voronoi Texture.
     voronoi_position_4d(c: F3, cw: F1, randomness: F1, cell: F1) -> F4 {
         cost: 3.0, error: 1e-5,
-        eval: voronoi_ops::voronoi_position_4d,
+        eval: voronoi_nearest::voronoi_position_4d,
     }
 
     /// Smooth F1's distance in 4 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_smooth_distance_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
         cost: 1635.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_4d,
-            init: voronoi_ops::voronoi_smooth_distance_init,
-            step: voronoi_ops::voronoi_smooth_distance_step_4d,
-            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            count: voronoi_smooth::voronoi_smooth_count_4d,
+            init: voronoi_smooth::voronoi_smooth_distance_init,
+            step: voronoi_smooth::voronoi_smooth_distance_step_4d,
+            finish: voronoi_smooth::voronoi_smooth_distance_finish,
             state: 1,
         },
     }
@@ -525,10 +525,10 @@ operations! {
     voronoi_smooth_distance_metric_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F1 {
         cost: 10092.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_4d,
-            init: voronoi_ops::voronoi_smooth_distance_init,
-            step: voronoi_ops::voronoi_smooth_distance_metric_step_4d,
-            finish: voronoi_ops::voronoi_smooth_distance_finish,
+            count: voronoi_smooth::voronoi_smooth_count_4d,
+            init: voronoi_smooth::voronoi_smooth_distance_init,
+            step: voronoi_smooth::voronoi_smooth_distance_metric_step_4d,
+            finish: voronoi_smooth::voronoi_smooth_distance_finish,
             state: 1,
         },
     }
@@ -537,10 +537,10 @@ operations! {
     voronoi_smooth_color_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
         cost: 2756.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_4d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_4d,
-            finish: voronoi_ops::voronoi_smooth_color,
+            count: voronoi_smooth::voronoi_smooth_count_4d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_step_4d,
+            finish: voronoi_smooth::voronoi_smooth_color,
             state: 8,
         },
     }
@@ -549,10 +549,10 @@ operations! {
     voronoi_smooth_color_metric_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> Color {
         cost: 14914.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_4d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_4d,
-            finish: voronoi_ops::voronoi_smooth_color,
+            count: voronoi_smooth::voronoi_smooth_count_4d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_metric_step_4d,
+            finish: voronoi_smooth::voronoi_smooth_color,
             state: 8,
         },
     }
@@ -561,10 +561,10 @@ operations! {
     voronoi_smooth_position_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
         cost: 2620.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_4d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_step_4d,
-            finish: voronoi_ops::voronoi_smooth_position,
+            count: voronoi_smooth::voronoi_smooth_count_4d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_step_4d,
+            finish: voronoi_smooth::voronoi_smooth_position,
             state: 8,
         },
     }
@@ -573,10 +573,10 @@ operations! {
     voronoi_smooth_position_metric_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, smoothness: F1, exponent: F1, metric: U32) -> F4 {
         cost: 14967.0, error: 1e-3,
         loop: {
-            count: voronoi_ops::voronoi_smooth_count_4d,
-            init: voronoi_ops::voronoi_smooth_init,
-            step: voronoi_ops::voronoi_smooth_metric_step_4d,
-            finish: voronoi_ops::voronoi_smooth_position,
+            count: voronoi_smooth::voronoi_smooth_count_4d,
+            init: voronoi_smooth::voronoi_smooth_init,
+            step: voronoi_smooth::voronoi_smooth_metric_step_4d,
+            finish: voronoi_smooth::voronoi_smooth_position,
             state: 8,
         },
     }
@@ -584,42 +584,42 @@ operations! {
     /// Distance to a cell's point in 1 dimension, Euclidean. Cycles, Voronoi Texture.
     voronoi_distance_1d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
         cost: 1.0, error: 1e-4,
-        eval: voronoi_ops::voronoi_distance_1d,
+        eval: voronoi_nearest::voronoi_distance_1d,
     }
 
     /// Distance to a cell's point in 2 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_distance_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
         cost: 1.5, error: 1e-4,
-        eval: voronoi_ops::voronoi_distance_2d,
+        eval: voronoi_nearest::voronoi_distance_2d,
     }
 
     /// Distance to the border between two cells' points in 2 dimensions. Cycles, Voronoi Texture.
     voronoi_border_2d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1, beyond: F1) -> F1 {
         cost: 2.5, error: 1e-4,
-        eval: voronoi_ops::voronoi_border_2d,
+        eval: voronoi_edge::voronoi_border_2d,
     }
 
     /// Distance to a cell's point in 3 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_distance_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
         cost: 2.0, error: 1e-4,
-        eval: voronoi_ops::voronoi_distance_3d,
+        eval: voronoi_nearest::voronoi_distance_3d,
     }
 
     /// Distance to the border between two cells' points in 3 dimensions. Cycles, Voronoi Texture.
     voronoi_border_3d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1, beyond: F1) -> F1 {
         cost: 4.0, error: 1e-4,
-        eval: voronoi_ops::voronoi_border_3d,
+        eval: voronoi_edge::voronoi_border_3d,
     }
 
     /// Distance to a cell's point in 4 dimensions, Euclidean. Cycles, Voronoi Texture.
     voronoi_distance_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1) -> F1 {
         cost: 3.0, error: 1e-4,
-        eval: voronoi_ops::voronoi_distance_4d,
+        eval: voronoi_nearest::voronoi_distance_4d,
     }
 
     /// Distance to the border between two cells' points in 4 dimensions. Cycles, Voronoi Texture.
     voronoi_border_4d(c: F3, cw: F1, f: F3, fw: F1, randomness: F1, cell: F1, beyond: F1) -> F1 {
         cost: 6.0, error: 1e-4,
-        eval: voronoi_ops::voronoi_border_4d,
+        eval: voronoi_edge::voronoi_border_4d,
     }
 }

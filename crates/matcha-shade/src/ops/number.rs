@@ -212,7 +212,7 @@ operations! {
     /// min(max(x, low), high). Cycles, Clamp, *Min Max*.
     clamp_min_max(x: F1, low: F1, high: F1) -> F1 {
         cost: 0.3, error: 0.0,
-        eval: scalar::scalar_clamp_min_max,
+        eval: math::clamp,
     }
 
     /// x from one range to another, linearly; 0 where the first is empty. Cycles, Map Range.

@@ -35,12 +35,6 @@ operations! {
         eval: shading::uv_gradient,
     }
 
-    /// A height's changes along two UV vectors from its gradient.
-    uv_change(gradient: F2, uv_a: F2, uv_b: F2) -> F2 {
-        cost: 0.2, error: 1e-5,
-        eval: shading::uv_change,
-    }
-
     /// Gradient of a height on the surface (M. Mikkelsen 2010). Cycles, Bump.
     bump_surface_gradient(normal: F3, axis_a: F3, axis_b: F3, change: F2) -> F3 {
         cost: 0.9, error: 1e-2,
