@@ -25,7 +25,7 @@ def build():
 
 
 def print_materials():
-    sizes = sorted((graph.expanded(m.node_tree), m.name) for m in bpy.data.materials if m.use_nodes)
+    sizes = sorted((graph.expanded(m.node_tree), m.name) for m in bpy.data.materials if m.node_tree)
     for nodes, name in sizes:
         print(f"{nodes:4} nodes  {name}")
     print(f"{sum(40 <= n <= 150 for n, _ in sizes)} materials of 40 to 150 nodes")
