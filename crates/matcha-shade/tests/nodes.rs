@@ -189,8 +189,8 @@ fn tolerance(case: &Value) -> (f32, usize) {
             (2e-4, 0)
         }
         "ShaderNodeVectorMath" if text("operation") == "TANGENT" => (5e-4, 0),
-        "ShaderNodeBlackbody" => (1e-2, 0),
-        "ShaderNodeWavelength" => (2e-2, 0),
+        "ShaderNodeBlackbody" => (2e-3, 0),
+        "ShaderNodeWavelength" => (1e-4, 0),
         _ => (2e-5, 0),
     }
 }
