@@ -3,16 +3,18 @@
 //!
 //! `cargo run --release -p matcha-shade --example machine_bench [-- FILTER]`
 
+mod timing;
+
 use matcha_shade::closure::ClosureKind;
 use matcha_shade::compile::{Options, compile};
-use matcha_shade::graph::{Graph, NodeId, Span, Table, TextureRef};
+use matcha_shade::graph::{Graph, NodeId, Span, Table};
 use matcha_shade::input::InputKind;
 use matcha_shade::material::MaterialGraph;
 use matcha_shade::ops::{self, OpCode};
 use matcha_shade::opt::Optimise;
 use matcha_shade::program::Program;
-use matcha_shade::vm::{Isa, Machine, Rows, Textures};
-use std::time::Instant;
+use matcha_shade::vm::{Isa, Rows};
+use timing::time;
 
 /// Hits in a group.
 const POINTS: usize = 1024;
@@ -20,22 +22,6 @@ const POINTS: usize = 1024;
 const COPIES: usize = 16;
 /// Numbers that operands are drawn from: attributes of four components.
 const ATTRIBUTES: u16 = 4;
-
-struct NoTextures;
-
-impl Textures for NoTextures {
-    fn sample(
-        &self,
-        _: TextureRef,
-        _: usize,
-        _: [&[f32]; 2],
-        _: [&[f32]; 2],
-        _: [&[f32]; 2],
-        out: [&mut [f32]; 4],
-    ) {
-        out.into_iter().for_each(|row| row.fill(0.5));
-    }
-}
 
 fn main() {
     let filter = std::env::args().nth(1).unwrap_or_default();
@@ -142,25 +128,6 @@ fn inputs(program: &Program, domain: [f32; 2], points: usize) -> Rows {
         }
     }
     inputs
-}
-
-fn time(program: &Program, isa: Isa, inputs: &Rows, points: usize) -> f64 {
-    let mut machine = Machine::new(Some(isa));
-    let mut out = Rows::default();
-    let mut best = f64::INFINITY;
-    let begin = Instant::now();
-    let mut tries = 0;
-    // The clock is read once for 64 points or more.
-    let runs = (64 / points).max(1);
-    while tries < 12 || (tries < 60 && begin.elapsed().as_secs_f64() < 0.01) {
-        let start = Instant::now();
-        for _ in 0..runs {
-            machine.run(program, points, inputs, &NoTextures, None, 0.0, &mut out);
-        }
-        best = best.min(start.elapsed().as_nanos() as f64 / (points * runs) as f64);
-        tries += 1;
-    }
-    best
 }
 
 fn of_total(m: &mut MaterialGraph, total: NodeId) {

@@ -3,7 +3,6 @@ pub mod cacheability;
 pub mod closure;
 pub mod compile;
 pub mod device;
-pub mod dot;
 mod emit;
 pub mod graph;
 pub mod input;

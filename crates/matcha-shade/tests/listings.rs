@@ -4,7 +4,6 @@ mod support;
 
 use matcha_shade::closure::ClosureKind;
 use matcha_shade::compile::{CostModel, Options, compile};
-use matcha_shade::dot::dot;
 use matcha_shade::graph::{AlphaHandling, Encoding, Interpolation, Span, Table, TextureRef};
 use matcha_shade::input::{InputKind, Part};
 use matcha_shade::material::MaterialGraph;
@@ -99,10 +98,4 @@ fn passes_make_it_smaller() {
         .map(|p| format!("{}: {} nodes, {} operations", p.pass, p.nodes, p.operations))
         .collect();
     insta::assert_snapshot!(sizes.join("\n"));
-}
-
-#[test]
-fn a_drawing_marks_what_is_cached() {
-    let compiled = compile(&material(), &options(true)).expect("compiles");
-    insta::assert_snapshot!(dot(&compiled));
 }
