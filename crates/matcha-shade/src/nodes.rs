@@ -1,6 +1,6 @@
 //! Lowering: from a tree as its author drew it to a typed graph and a closure tree.
 //!
-//! One table, [`table::NODES`], gives every node type's lowering function; a family of
+//! One table, [`nodes`], gives every node type's lowering function; a family of
 //! nodes is a file. Groups are inlined, muted nodes and reroutes are followed, sockets
 //! are converted as Blender converts them. A node that cannot be honoured is reported
 //! and replaced by a stated substitute.

@@ -166,3 +166,83 @@ fn invalid(word: usize, problem: &str) -> ProgramError {
         problem: problem.to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closure::ClosureKind;
+    use crate::compile::{CostModel, Options, compile};
+    use crate::graph::Span;
+    use crate::input::InputKind;
+    use crate::material::MaterialGraph;
+    use crate::ops::OpCode;
+
+    /// A program with a region of one word and one word after it.
+    fn program() -> Program {
+        let mut m = MaterialGraph::default();
+        let g = &mut m.graph;
+        let uv = g.value(InputKind::Uv(0));
+        let (u, v) = (g.component(uv, 0), g.component(uv, 1));
+        let product = g.apply(OpCode::math_multiply, &[u, v]);
+        let position = g.value(InputKind::Position);
+        let weight = g.apply(OpCode::vector_scale, &[position, product]);
+        let (kind, span) = (ClosureKind::Transparent, Span::default());
+        m.closures.root = Some(m.closures.leaf(&m.graph, kind, weight, vec![], span));
+        let cost = CostModel {
+            lookup_ns: 0.0,
+            ..CostModel::default()
+        };
+        let options = Options {
+            cost,
+            ..Options::default()
+        };
+        compile(&m, &options).expect("compiles").program
+    }
+
+    fn problem_after(spoil: impl FnOnce(&mut Program)) -> String {
+        let mut program = program();
+        assert_eq!(program.verify(), Ok(()));
+        spoil(&mut program);
+        match program.verify() {
+            Err(ProgramError::Invalid { problem, .. }) => problem,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn lookup_words_store_then_the_rest() {
+        let ops: Vec<u16> = program().words.iter().map(|w| w.op).collect();
+        let (inside, after) = (OpCode::math_multiply.0, OpCode::vector_scale.0);
+        assert_eq!(ops, [special::LOOKUP, inside, special::STORE, after]);
+    }
+
+    #[test]
+    fn what_a_machine_could_not_bear_is_refused() {
+        let many = !CONSTANT;
+        assert!(problem_after(|p| p.words[3].dst = many).contains("does not exist"));
+        assert!(problem_after(|p| p.words[3].src[0] = many).contains("nothing wrote"));
+        let constant = many | CONSTANT;
+        assert!(problem_after(|p| p.words[3].src[0] = constant).contains("constant"));
+        assert!(problem_after(|p| p.words[3].op = 0xfe00).contains("no such"));
+        assert!(problem_after(|p| p.words[3].src[11] = 1).contains("unused operand"));
+        assert!(problem_after(|p| p.outputs[0] = many).contains("nothing wrote"));
+        assert!(problem_after(|p| p.constants.push(1.0)).contains("constants"));
+    }
+
+    #[test]
+    fn a_region_reads_and_writes_its_own_registers_only() {
+        // An input of the hit, which is not the texel's.
+        assert!(problem_after(|p| p.words[1].src[0] = 0).contains("nothing wrote"));
+        // An input that the words after the region read.
+        let clobber = |p: &mut Program| {
+            p.words[1].dst = 0;
+            p.words[2].src[0] = 0;
+        };
+        assert!(problem_after(clobber).contains("in use"));
+        // A register of the region, read after it.
+        let leak = |p: &mut Program| p.words[3].src[3] = p.words[1].dst;
+        assert!(problem_after(leak).contains("nothing wrote"));
+        assert!(problem_after(|p| p.words[2].op = 0).contains("store"));
+        assert!(problem_after(|p| p.words[3] = p.words[2]).contains("outside of a region"));
+    }
+}
