@@ -35,7 +35,11 @@ fn seconds_of_cycles(arguments: &Arguments) -> Result<f64> {
         .arg(&arguments.resolution)
         .output()
         .context("cannot start Python")?;
-    ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    ensure!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let text = String::from_utf8_lossy(&output.stdout);
     let line = text.lines().find_map(|line| line.strip_prefix("CYCLES "));
     Ok(line.context("Cycles printed no time")?.trim().parse()?)
@@ -50,7 +54,12 @@ fn seconds_of_matcha(arguments: &Arguments) -> Result<f64> {
         .arg(&arguments.scene)
         .arg("-o")
         .arg(folder.join("picture.exr"))
-        .args(["--cache", "off", "--samples", &arguments.samples.to_string()])
+        .args([
+            "--cache",
+            "off",
+            "--samples",
+            &arguments.samples.to_string(),
+        ])
         .args(["--resolution", &arguments.resolution])
         .arg("--stats")
         .arg(&stats)
@@ -59,7 +68,9 @@ fn seconds_of_matcha(arguments: &Arguments) -> Result<f64> {
     ensure!(status.success(), "matcha failed");
     let stats: serde_json::Value = serde_json::from_slice(&std::fs::read(stats)?)?;
     std::fs::remove_dir_all(folder)?;
-    stats["seconds"].as_f64().context("the statistics have no `seconds`")
+    stats["seconds"]
+        .as_f64()
+        .context("the statistics have no `seconds`")
 }
 
 pub fn run(arguments: &Arguments) -> Result<()> {
@@ -74,7 +85,10 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             (seconds_of_matcha(arguments)?, cycles)
         };
         ratios.push(matcha / cycles);
-        println!("Matcha {matcha:.1} s, Cycles {cycles:.1} s, ratio {:.3}", matcha / cycles);
+        println!(
+            "Matcha {matcha:.1} s, Cycles {cycles:.1} s, ratio {:.3}",
+            matcha / cycles
+        );
     }
     ratios.sort_by(f64::total_cmp);
     println!(

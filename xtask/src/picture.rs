@@ -36,13 +36,21 @@ impl Picture {
         .with_context(|| format!("cannot read {}", path.display()))?;
         let size = image.layer_data.size;
         let (_, pixels) = image.layer_data.channel_data.pixels;
-        Ok(Self { width: size.width(), height: size.height(), pixels })
+        Ok(Self {
+            width: size.width(),
+            height: size.height(),
+            pixels,
+        })
     }
 
     /// Mean of each channel.
     pub fn mean(&self) -> [f64; 3] {
         let sum = self.pixels.iter().fold([0.0; 3], |sum: [f64; 3], p| {
-            [sum[0] + f64::from(p[0]), sum[1] + f64::from(p[1]), sum[2] + f64::from(p[2])]
+            [
+                sum[0] + f64::from(p[0]),
+                sum[1] + f64::from(p[1]),
+                sum[2] + f64::from(p[2]),
+            ]
         });
         sum.map(|s| s / self.pixels.len() as f64)
     }
@@ -58,7 +66,11 @@ impl Picture {
             reference.height
         );
         let (a, b) = (self.mean(), reference.mean());
-        let squares = self.pixels.iter().flatten().zip(reference.pixels.iter().flatten());
+        let squares = self
+            .pixels
+            .iter()
+            .flatten()
+            .zip(reference.pixels.iter().flatten());
         let rel_mse = squares
             .map(|(a, b)| f64::from((a - b) * (a - b)) / (f64::from(b * b) + 0.01))
             .sum::<f64>()
@@ -74,7 +86,11 @@ impl Picture {
     fn display(&self) -> Vec<u8> {
         let encode = |x: f32| {
             let x = x.clamp(0.0, 1.0);
-            let y = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
+            let y = if x <= 0.003_130_8 {
+                12.92 * x
+            } else {
+                1.055 * x.powf(1.0 / 2.4) - 0.055
+            };
             (y * 255.0 + 0.5) as u8
         };
         self.pixels.iter().flatten().map(|&x| encode(x)).collect()
@@ -83,8 +99,11 @@ impl Picture {
     fn flip(&self, reference: &Picture) -> f32 {
         let (w, h) = (self.width as u32, self.height as u32);
         let image = |p: &Picture| nv_flip::FlipImageRgb8::with_data(w, h, &p.display());
-        let error =
-            nv_flip::flip(image(reference), image(self), nv_flip::DEFAULT_PIXELS_PER_DEGREE);
+        let error = nv_flip::flip(
+            image(reference),
+            image(self),
+            nv_flip::DEFAULT_PIXELS_PER_DEGREE,
+        );
         nv_flip::FlipPool::from_image(&error).mean()
     }
 }

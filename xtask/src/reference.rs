@@ -33,7 +33,9 @@ pub fn matcha() -> Command {
 
 /// Builds the release binary.
 pub fn build() -> Result<()> {
-    let status = Command::new("cargo").args(["build", "--release", "-p", "matcha"]).status()?;
+    let status = Command::new("cargo")
+        .args(["build", "--release", "-p", "matcha"])
+        .status()?;
     ensure!(status.success(), "matcha does not build");
     Ok(())
 }
@@ -50,7 +52,10 @@ fn render(arguments: &Arguments, reference: &Picture) -> Result<()> {
         .arg(&arguments.output)
         .args(["--cache", "off"])
         .args(["--samples", &arguments.samples.to_string()])
-        .args(["--resolution", &format!("{}x{}", reference.width, reference.height)])
+        .args([
+            "--resolution",
+            &format!("{}x{}", reference.width, reference.height),
+        ])
         .args(&arguments.more)
         .status()
         .context("cannot start matcha")?;
@@ -59,7 +64,10 @@ fn render(arguments: &Arguments, reference: &Picture) -> Result<()> {
 }
 
 fn file_stem(path: &Path) -> String {
-    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    path.file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
 }
 
 pub fn run(arguments: &Arguments) -> Result<()> {

@@ -1,8 +1,8 @@
 //! What a device that renders must offer, and what is asked of it.
 
+use crate::accel::AccelError;
 use crate::film::Film;
 use matcha_cache::CacheError;
-use crate::accel::AccelError;
 use matcha_shade::nodes::LowerError;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -39,7 +39,12 @@ pub struct RenderOptions {
 
 impl Default for RenderOptions {
     fn default() -> Self {
-        Self { resolution: None, threads: None, seed: None, cache: CacheMode::Off }
+        Self {
+            resolution: None,
+            threads: None,
+            seed: None,
+            cache: CacheMode::Off,
+        }
     }
 }
 
@@ -140,7 +145,11 @@ pub struct Statistics {
 impl Statistics {
     /// Share of the threads' time that went into node networks, 0 to 1.
     pub fn material_share(&self) -> f64 {
-        if self.thread_seconds > 0.0 { self.network_seconds / self.thread_seconds } else { 0.0 }
+        if self.thread_seconds > 0.0 {
+            self.network_seconds / self.thread_seconds
+        } else {
+            0.0
+        }
     }
 }
 

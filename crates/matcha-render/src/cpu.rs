@@ -51,7 +51,9 @@ impl CpuBackend {
         Ok(Self {
             programs,
             cache,
-            workers: (0..pool.current_num_threads()).map(|_| Mutex::default()).collect(),
+            workers: (0..pool.current_num_threads())
+                .map(|_| Mutex::default())
+                .collect(),
             pool,
             tiles: Tile::cover(width, height),
             filter: FilterTable::new(settings.filter),
@@ -74,7 +76,9 @@ impl CpuBackend {
     }
 
     fn cache_statistics(&self, counts: &CacheCounts) -> CacheStatistics {
-        let Some((table, _)) = &self.cache else { return CacheStatistics::default() };
+        let Some((table, _)) = &self.cache else {
+            return CacheStatistics::default();
+        };
         CacheStatistics {
             lookups: counts.lookups,
             hits: counts.hits,
@@ -90,7 +94,14 @@ impl CpuBackend {
 
 /// The table that a mode asks for. A size that nobody asked for shrinks until it fits.
 fn make_cache(mode: &CacheMode) -> Result<Option<(Table, f32)>, RenderError> {
-    let CacheMode::Paper { cells, entries, level_offset } = *mode else { return Ok(None) };
+    let CacheMode::Paper {
+        cells,
+        entries,
+        level_offset,
+    } = *mode
+    else {
+        return Ok(None);
+    };
     let asked = TableSize {
         cells: cells.unwrap_or(TableSize::PAPER.cells),
         entries: entries.unwrap_or(TableSize::PAPER.entries),
@@ -121,10 +132,10 @@ impl Backend for CpuBackend {
             prepared: &self.prepared,
             programs: &self.programs,
             filter: &self.filter,
-            cache: self
-                .cache
-                .as_ref()
-                .map(|(table, level_offset)| FrameCache { table, level_offset: *level_offset }),
+            cache: self.cache.as_ref().map(|(table, level_offset)| FrameCache {
+                table,
+                level_offset: *level_offset,
+            }),
             seed: self.seed,
         };
         let film = Mutex::new(&mut self.film);
@@ -136,10 +147,14 @@ impl Backend for CpuBackend {
                     return;
                 }
                 let index = rayon::current_thread_index().unwrap_or(0);
-                let mut worker = workers[index].lock().unwrap_or_else(PoisonError::into_inner);
+                let mut worker = workers[index]
+                    .lock()
+                    .unwrap_or_else(PoisonError::into_inner);
                 let mut sums = vec![PixelSums::default(); tile.pixels() as usize];
                 worker.render_tile(&frame, tile, range.clone(), &mut sums);
-                film.lock().unwrap_or_else(PoisonError::into_inner).add_tile(tile, &sums);
+                film.lock()
+                    .unwrap_or_else(PoisonError::into_inner)
+                    .add_tile(tile, &sums);
                 control.add_samples(u64::from(tile.pixels()) * range.len() as u64);
             });
         });

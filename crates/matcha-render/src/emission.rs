@@ -21,7 +21,13 @@ pub fn of_materials(prepared: &Prepared) -> Vec<Option<MaterialEmission>> {
         Err(_) => return Vec::new(),
     };
     let filter = FilterTable::new(PixelFilter::Box);
-    let frame = Frame { prepared, programs: &programs, filter: &filter, cache: None, seed: 0 };
+    let frame = Frame {
+        prepared,
+        programs: &programs,
+        filter: &filter,
+        cache: None,
+        seed: 0,
+    };
     let mut networks = Networks::new();
     let shining: Vec<bool> = programs.iter().map(|p| p.has_emission()).collect();
     let probes = probes(prepared, &shining);
@@ -33,13 +39,16 @@ pub fn of_materials(prepared: &Prepared) -> Vec<Option<MaterialEmission>> {
                 return None;
             }
             let program = &programs[material];
-            let plain = !program.closures.iter().any(|c| {
-                matches!(c.kind, ClosureKind::Principled(_))
-            });
+            let plain = !program
+                .closures
+                .iter()
+                .any(|c| matches!(c.kind, ClosureKind::Principled(_)));
             match constant_radiance(program) {
-                Some(radiance) if plain => {
-                    Some(MaterialEmission { radiance, constant: true, sides: Sides::Both })
-                }
+                Some(radiance) if plain => Some(MaterialEmission {
+                    radiance,
+                    constant: true,
+                    sides: Sides::Both,
+                }),
                 _ => probe(&frame, &mut networks, material as u32, hits),
             }
         })
@@ -79,7 +88,13 @@ fn spread(triangles: &[[u32; 2]]) -> Vec<Hit> {
             if u + v > 1.0 {
                 (u, v) = (1.0 - u, 1.0 - v);
             }
-            Hit { instance, primitive, t: 0.0, u, v }
+            Hit {
+                instance,
+                primitive,
+                t: 0.0,
+                u,
+                v,
+            }
         })
         .collect()
 }
@@ -92,7 +107,9 @@ fn probe(
     hits: &[Hit],
 ) -> Option<MaterialEmission> {
     let mut mean = |side: f32| {
-        let towards = hits.iter().map(|hit| (*hit, -front_normal(frame, hit) * side));
+        let towards = hits
+            .iter()
+            .map(|hit| (*hit, -front_normal(frame, hit) * side));
         networks.emission_of_points(frame, material, towards);
         let sum: Vec3 = (0..hits.len()).map(|i| networks.emission(i)).sum();
         sum / hits.len() as f32
@@ -104,16 +121,27 @@ fn probe(
         (true, false) => Sides::Back,
         (false, false) => Sides::Both,
     };
-    let radiance = if sides == Sides::Both { 0.5 * (front + back) } else { front + back };
-    Some(MaterialEmission { radiance, constant: false, sides })
+    let radiance = if sides == Sides::Both {
+        0.5 * (front + back)
+    } else {
+        front + back
+    };
+    Some(MaterialEmission {
+        radiance,
+        constant: false,
+        sides,
+    })
 }
 
 fn front_normal(frame: &Frame, hit: &Hit) -> Vec3 {
     let scene = frame.prepared.scene();
     let instance = &scene.instances[hit.instance as usize];
     let mesh = &scene.meshes[instance.mesh as usize];
-    let corners = mesh.indices[hit.primitive as usize]
-        .map(|v| instance.transform.transform_point3(mesh.positions[v as usize]));
+    let corners = mesh.indices[hit.primitive as usize].map(|v| {
+        instance
+            .transform
+            .transform_point3(mesh.positions[v as usize])
+    });
     let across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let mirrored = instance.transform.matrix3.determinant() < 0.0;
     let normal = across.normalize_or(vec3(0.0, 0.0, 1.0));
@@ -131,17 +159,31 @@ pub fn of_world(prepared: &Prepared) -> Option<WorldRadiance> {
 }
 
 fn bake(prepared: &Prepared, asked: u32) -> WorldGrid {
-    let width = if asked == 0 { MAP_WIDTH } else { asked.clamp(4, 8192) };
+    let width = if asked == 0 {
+        MAP_WIDTH
+    } else {
+        asked.clamp(4, 8192)
+    };
     let height = (width / 2).max(2);
     let filter = FilterTable::new(PixelFilter::Box);
-    let frame = Frame { prepared, programs: &[], filter: &filter, cache: None, seed: 0 };
+    let frame = Frame {
+        prepared,
+        programs: &[],
+        filter: &filter,
+        cache: None,
+        seed: 0,
+    };
     let mut networks = Networks::new();
     let mut radiance = Vec::with_capacity(width as usize * height as usize);
     for y in 0..height {
-        let directions = (0..width)
-            .map(|x| grid_direction(x as f32 + 0.5, y as f32 + 0.5, width, height));
+        let directions =
+            (0..width).map(|x| grid_direction(x as f32 + 0.5, y as f32 + 0.5, width, height));
         networks.world_of_directions(&frame, directions);
         radiance.extend((0..width as usize).map(|x| networks.world_radiance(x)));
     }
-    WorldGrid { width, height, radiance }
+    WorldGrid {
+        width,
+        height,
+        radiance,
+    }
 }

@@ -39,7 +39,11 @@ impl PixelSums {
     }
 
     fn per_sample(&self) -> f32 {
-        if self.samples > 0.0 { 1.0 / self.samples } else { 0.0 }
+        if self.samples > 0.0 {
+            1.0 / self.samples
+        } else {
+            0.0
+        }
     }
 }
 
@@ -56,7 +60,12 @@ impl Film {
     /// A black film of `width` × `height` pixels; radiance is multiplied by `exposure` when read.
     pub fn new(width: u32, height: u32, exposure: f32) -> Self {
         let pixels = vec![PixelSums::default(); width as usize * height as usize];
-        Self { width, height, exposure, pixels }
+        Self {
+            width,
+            height,
+            exposure,
+            pixels,
+        }
     }
 
     /// Width in pixels.
@@ -86,7 +95,11 @@ impl Film {
 
     /// Smallest number of samples that a pixel has.
     pub fn samples(&self) -> u32 {
-        self.pixels.iter().map(|p| p.samples as u32).min().unwrap_or(0)
+        self.pixels
+            .iter()
+            .map(|p| p.samples as u32)
+            .min()
+            .unwrap_or(0)
     }
 
     /// Number of samples of all pixels together.
@@ -96,14 +109,19 @@ impl Film {
 
     /// Number of nodes found in the cache, over all samples.
     pub fn total_nodes_found(&self) -> u64 {
-        self.pixels.iter().map(|p| f64::from(p.nodes_found)).sum::<f64>() as u64
+        self.pixels
+            .iter()
+            .map(|p| f64::from(p.nodes_found))
+            .sum::<f64>() as u64
     }
 
     /// The picture, linear Rec.709 with premultiplied alpha, row by row.
     pub fn combined(&self) -> Vec<[f32; 4]> {
         self.map(|p| {
             let mean = p.radiance * p.per_sample();
-            (mean.truncate() * self.exposure).extend(mean.w.clamp(0.0, 1.0)).to_array()
+            (mean.truncate() * self.exposure)
+                .extend(mean.w.clamp(0.0, 1.0))
+                .to_array()
         })
     }
 
@@ -119,7 +137,13 @@ impl Film {
 
     /// Mean depth of the samples that hit something, metres; infinite where none did.
     pub fn depth(&self) -> Vec<f32> {
-        self.map(|p| if p.depth_samples > 0.0 { p.depth / p.depth_samples } else { f32::INFINITY })
+        self.map(|p| {
+            if p.depth_samples > 0.0 {
+                p.depth / p.depth_samples
+            } else {
+                f32::INFINITY
+            }
+        })
     }
 
     /// Mean number of nodes found in the cache per sample (the paper's heat map).
@@ -196,7 +220,12 @@ mod tests {
     #[test]
     fn the_mean_is_over_samples_and_exposed() {
         let mut film = Film::new(2, 1, 2.0);
-        let tile = Tile { x: 1, y: 0, width: 1, height: 1 };
+        let tile = Tile {
+            x: 1,
+            y: 0,
+            width: 1,
+            height: 1,
+        };
         let sample = PixelSums {
             radiance: Vec4::new(1.0, 2.0, 3.0, 1.0),
             samples: 2.0,

@@ -305,7 +305,11 @@ impl LightSet {
         Some(LightSample {
             light: LightId::Analytic(index),
             wi: sampled.direction,
-            distance: if sampled.distance < LIGHT_FAR { sampled.distance } else { f32::INFINITY },
+            distance: if sampled.distance < LIGHT_FAR {
+                sampled.distance
+            } else {
+                f32::INFINITY
+            },
             point: sampled.point,
             normal: sampled.normal,
             pdf: sampled.pdf * chosen,

@@ -31,7 +31,13 @@ impl<'a> MaterialCache<'a> {
         counts: &'a mut CacheCounts,
         scratch: &'a mut Scratch,
     ) -> Self {
-        Self { table, material, found_nodes, counts, scratch }
+        Self {
+            table,
+            material,
+            found_nodes,
+            counts,
+            scratch,
+        }
     }
 
     fn seed(&self, region: &Region, part: usize) -> NodeSeed {
@@ -56,13 +62,7 @@ fn kind(region: &Region) -> ValueKind {
 }
 
 impl NodeCache for MaterialCache<'_> {
-    fn look_up(
-        &mut self,
-        region: &Region,
-        texels: &[Texel],
-        out: &mut Rows,
-        found: &mut [bool],
-    ) {
+    fn look_up(&mut self, region: &Region, texels: &[Texel], out: &mut Rows, found: &mut [bool]) {
         let kind = kind(region);
         let n = texels.len();
         for part in 0..kind.words() {
@@ -70,8 +70,13 @@ impl NodeCache for MaterialCache<'_> {
             let words = &mut self.scratch.words[part];
             words.resize(n, 0);
             self.scratch.part_found.resize(n, false);
-            let here = if part == 0 { &mut *found } else { &mut self.scratch.part_found[..] };
-            self.table.look_up_batch(seed, |k| coordinates(&texels[k]), words, here, self.counts);
+            let here = if part == 0 {
+                &mut *found
+            } else {
+                &mut self.scratch.part_found[..]
+            };
+            self.table
+                .look_up_batch(seed, |k| coordinates(&texels[k]), words, here, self.counts);
             if part > 0 {
                 for (all, &one) in found.iter_mut().zip(&self.scratch.part_found) {
                     *all &= one;
@@ -101,7 +106,8 @@ impl NodeCache for MaterialCache<'_> {
             };
             for (part, &word) in words.iter().enumerate().take(kind.words()) {
                 let seed = self.seed(region, part);
-                self.table.insert(seed, coordinates(texel), word, self.counts);
+                self.table
+                    .insert(seed, coordinates(texel), word, self.counts);
             }
         }
     }

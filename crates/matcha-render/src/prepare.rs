@@ -51,11 +51,21 @@ impl Prepared {
         let resolution = resolution.unwrap_or(scene.settings.resolution);
         check_resolution(resolution)?;
         check_indices(&scene)?;
-        let Lowered { graphs, reports, world, lights } = lower_scene(&mut scene)?;
+        let Lowered {
+            graphs,
+            reports,
+            world,
+            lights,
+        } = lower_scene(&mut scene)?;
         let programs = compile_all(&graphs, false)?;
         let camera = camera::prepare(&scene.camera, resolution, scene.settings.pixel_aspect);
         let view = View::new(camera, resolution);
-        let all = || programs.iter().chain(world.as_ref().ok()).chain(lights.iter().flatten());
+        let all = || {
+            programs
+                .iter()
+                .chain(world.as_ref().ok())
+                .chain(lights.iter().flatten())
+        };
         let textures = TextureSet::build(&scene.images, all().flat_map(|p| p.textures()));
         let kinds = all().flat_map(|p| &p.inputs).map(|(input, _)| input.kind);
         let surfaces = SurfaceTables::new(&scene, view, kinds);
@@ -172,7 +182,10 @@ fn check_indices(scene: &Scene) -> Result<(), RenderError> {
         };
         let slots = mesh.slots.iter().copied().max().unwrap_or(0);
         for slot in 0..=usize::from(slots) {
-            let given = instance.materials.get(slot).or_else(|| mesh.material_slots.get(slot));
+            let given = instance
+                .materials
+                .get(slot)
+                .or_else(|| mesh.material_slots.get(slot));
             if !mesh.indices.is_empty() && !given.is_some_and(|&m| (m as usize) < count) {
                 return Err(RenderError::Scene(format!(
                     "object \"{}\": slot {slot} of mesh \"{}\" has no material",
@@ -198,11 +211,19 @@ fn lower_scene(scene: &mut Scene) -> Result<Lowered, RenderError> {
     let graphs = lower_materials(scene, &mut reports)?;
     let world = lower_world(scene, &mut reports)?;
     let lights = lower_lights(scene, &mut reports)?;
-    Ok(Lowered { graphs, reports, world, lights })
+    Ok(Lowered {
+        graphs,
+        reports,
+        world,
+        lights,
+    })
 }
 
 fn names(scene: &Scene) -> Names<'_> {
-    Names { uv: &scene.uv_names, attributes: &scene.attribute_names }
+    Names {
+        uv: &scene.uv_names,
+        attributes: &scene.attribute_names,
+    }
 }
 
 fn lower_materials(
@@ -213,9 +234,13 @@ fn lower_materials(
         .materials
         .par_iter()
         .map(|material| match &material.shader {
-            Shader::Cycles(tree) => {
-                lower(&scene.trees, *tree, names(scene), &material.name, MaterialKind::Surface)
-            }
+            Shader::Cycles(tree) => lower(
+                &scene.trees,
+                *tree,
+                names(scene),
+                &material.name,
+                MaterialKind::Surface,
+            ),
             Shader::Gltf(gltf) => Ok((lower_gltf(&material.name, gltf), LowerReport::default())),
         })
         .collect::<Result<_, _>>()?;
@@ -234,13 +259,18 @@ fn note(reports: &mut Vec<(String, LowerReport)>, name: &str, report: LowerRepor
 }
 
 fn compile_all(graphs: &[MaterialGraph], cache: bool) -> Result<Vec<Program>, RenderError> {
-    let options = Options { cache, ..Options::default() };
+    let options = Options {
+        cache,
+        ..Options::default()
+    };
     graphs
         .par_iter()
         .map(|graph| {
-            compile(graph, &options).map(|compiled| compiled.program).map_err(|error| {
-                RenderError::Scene(format!("material \"{}\": {error}", graph.name))
-            })
+            compile(graph, &options)
+                .map(|compiled| compiled.program)
+                .map_err(|error| {
+                    RenderError::Scene(format!("material \"{}\": {error}", graph.name))
+                })
         })
         .collect()
 }
@@ -299,7 +329,10 @@ fn lower_lights(
 pub(crate) fn constant_radiance(program: &Program) -> Option<Vec3> {
     let mut sum = Vec3::ZERO;
     for closure in &program.closures {
-        if matches!(closure.kind, ClosureKind::Emission | ClosureKind::Background) {
+        if matches!(
+            closure.kind,
+            ClosureKind::Emission | ClosureKind::Background
+        ) {
             let row = |k| program.constant_output(closure.first_row + k);
             sum += Vec3::new(row(0)?, row(1)?, row(2)?);
         }
@@ -314,7 +347,10 @@ fn transparent_instances(scene: &Scene, programs: &[Program]) -> Vec<bool> {
         let mesh = &scene.meshes[instance.mesh as usize];
         let slots = mesh.material_slots.len().max(instance.materials.len());
         (0..slots).any(|slot| {
-            let material = instance.materials.get(slot).or_else(|| mesh.material_slots.get(slot));
+            let material = instance
+                .materials
+                .get(slot)
+                .or_else(|| mesh.material_slots.get(slot));
             material.is_some_and(|&m| transparent.get(m as usize) == Some(&true))
         })
     };

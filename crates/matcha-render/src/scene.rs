@@ -69,8 +69,15 @@ pub struct Mesh {
 impl Mesh {
     /// Material of a triangle as an instance shows it: index into `Scene::materials`.
     pub fn material_of(&self, instance: &Instance, triangle: u32) -> Option<u32> {
-        let slot = self.slots.get(triangle as usize).map_or(0, |&slot| usize::from(slot));
-        instance.materials.get(slot).or_else(|| self.material_slots.get(slot)).copied()
+        let slot = self
+            .slots
+            .get(triangle as usize)
+            .map_or(0, |&slot| usize::from(slot));
+        instance
+            .materials
+            .get(slot)
+            .or_else(|| self.material_slots.get(slot))
+            .copied()
     }
 }
 
@@ -111,7 +118,13 @@ pub struct Visibility {
 
 impl Default for Visibility {
     fn default() -> Self {
-        Self { camera: true, diffuse: true, glossy: true, transmission: true, shadow: true }
+        Self {
+            camera: true,
+            diffuse: true,
+            glossy: true,
+            transmission: true,
+            shadow: true,
+        }
     }
 }
 
@@ -326,7 +339,10 @@ impl Default for Camera {
     fn default() -> Self {
         Self {
             transform: Affine3A::IDENTITY,
-            projection: Projection::Perspective { tan_half_width: 0.36, fit: SensorFit::Auto },
+            projection: Projection::Perspective {
+                tan_half_width: 0.36,
+                fit: SensorFit::Auto,
+            },
             shift: Vec2::ZERO,
             clip: [0.001, 1e5],
             aperture_radius: 0.0,
@@ -464,6 +480,11 @@ pub struct ViewSettings {
 
 impl Default for ViewSettings {
     fn default() -> Self {
-        Self { transform: "AgX".into(), look: "None".into(), exposure: 0.0, gamma: 1.0 }
+        Self {
+            transform: "AgX".into(),
+            look: "None".into(),
+            exposure: 0.0,
+            gamma: 1.0,
+        }
     }
 }

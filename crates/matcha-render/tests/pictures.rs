@@ -14,7 +14,9 @@ fn render(scene: Scene, options: &RenderOptions) -> Vec<[f32; 4]> {
     let samples = scene.settings.samples;
     let prepared = Arc::new(Prepared::new(scene, options.resolution).expect("prepares"));
     let mut backend = CpuBackend::new(prepared, options).expect("starts");
-    backend.render(0..samples, &Control::default()).expect("renders");
+    backend
+        .render(0..samples, &Control::default())
+        .expect("renders");
     backend.film().combined()
 }
 
@@ -68,7 +70,10 @@ fn a_square_lamp_lights_the_floor_by_its_form_factor() {
         * (x / (1.0 + x * x).sqrt() * (x / (1.0 + x * x).sqrt()).atan());
     let expected = 0.5 * radiance * 4.0 * corner;
     let got = mean(&render(scene, &RenderOptions::default()));
-    assert!((got / expected - 1.0).abs() < 5e-3, "{got} instead of {expected}");
+    assert!(
+        (got / expected - 1.0).abs() < 5e-3,
+        "{got} instead of {expected}"
+    );
 }
 
 /// The same seed gives the same bits whatever the number of threads.
@@ -85,10 +90,16 @@ fn threads_do_not_change_a_picture() {
         scene.settings.resolution = [100, 70];
         scene
     };
-    let with = |threads| RenderOptions { threads: Some(threads), ..RenderOptions::default() };
+    let with = |threads| RenderOptions {
+        threads: Some(threads),
+        ..RenderOptions::default()
+    };
     let one = render(scene(), &with(1));
     assert_eq!(one, render(scene(), &with(3)));
-    let other_seed = RenderOptions { seed: Some(1), ..with(1) };
+    let other_seed = RenderOptions {
+        seed: Some(1),
+        ..with(1)
+    };
     assert_ne!(one, render(scene(), &other_seed));
 }
 
@@ -103,7 +114,17 @@ fn the_cache_leaves_constant_materials_alone() {
         scene.settings.samples = 4;
         scene
     };
-    let cache = CacheMode::Paper { cells: Some(1000), entries: Some(4), level_offset: 0.0 };
-    let cached = RenderOptions { cache, ..RenderOptions::default() };
-    assert_eq!(render(scene(), &RenderOptions::default()), render(scene(), &cached));
+    let cache = CacheMode::Paper {
+        cells: Some(1000),
+        entries: Some(4),
+        level_offset: 0.0,
+    };
+    let cached = RenderOptions {
+        cache,
+        ..RenderOptions::default()
+    };
+    assert_eq!(
+        render(scene(), &RenderOptions::default()),
+        render(scene(), &cached)
+    );
 }

@@ -49,14 +49,17 @@ impl Worker {
         for i in lights {
             if let Emitter::Light(emission, distance) = tasks[i].emitter {
                 let direction = tasks[i].ray.direction;
-                tasks[i].value *=
-                    self.networks.light_radiance(frame, &emission, direction, distance);
+                tasks[i].value *= self
+                    .networks
+                    .light_radiance(frame, &emission, direction, distance);
             }
         }
         waiting.sort_unstable_by_key(|&(material, _, i)| (material, i));
         for same in waiting.chunk_by(|a, b| a.0 == b.0) {
             for group in same.chunks(super::shade::GROUP) {
-                let points = group.iter().map(|&(_, hit, i)| (hit, tasks[i].ray.direction));
+                let points = group
+                    .iter()
+                    .map(|&(_, hit, i)| (hit, tasks[i].ray.direction));
                 self.networks.emission_of_points(frame, same[0].0, points);
                 for (k, &(_, _, i)) in group.iter().enumerate() {
                     tasks[i].value *= self.networks.emission(k);
@@ -68,15 +71,22 @@ impl Worker {
     /// Weakens light by the transparent surfaces on its way, one layer after the other for
     /// all rays together; drops rays that meet too many or an opaque one.
     fn attenuate(&mut self, frame: &Frame, tasks: &mut Vec<LightTask>) {
-        let mut rays: Vec<(usize, Ray)> =
-            tasks.iter().enumerate().map(|(i, task)| (i, transparent_ray(&task.ray))).collect();
+        let mut rays: Vec<(usize, Ray)> = tasks
+            .iter()
+            .enumerate()
+            .map(|(i, task)| (i, transparent_ray(&task.ray)))
+            .collect();
         while !rays.is_empty() {
             let mut layer: Vec<SurfaceTask> = Vec::new();
             self.counts.rays += rays.len() as u64;
             rays.retain(|(i, ray)| match frame.prepared.accel.closest(ray) {
                 Some(hit) => {
                     let material = frame.material_of(&hit);
-                    layer.push(SurfaceTask { path: *i as u32, material, hit });
+                    layer.push(SurfaceTask {
+                        path: *i as u32,
+                        material,
+                        hit,
+                    });
                     true
                 }
                 None => false,
@@ -98,13 +108,19 @@ impl Worker {
         for same in order.chunk_by(|&a, &b| layer[a].material == layer[b].material) {
             for group in same.chunks(super::shade::GROUP) {
                 let material = layer[group[0]].material;
-                let points =
-                    group.iter().map(|&k| (layer[k].hit, tasks[layer[k].path as usize].ray.direction));
-                self.networks.transparency_of_points(frame, material, points);
+                let points = group
+                    .iter()
+                    .map(|&k| (layer[k].hit, tasks[layer[k].path as usize].ray.direction));
+                self.networks
+                    .transparency_of_points(frame, material, points);
                 for (n, &k) in group.iter().enumerate() {
                     let task = &mut tasks[layer[k].path as usize];
                     let through = self.networks.transparency(n);
-                    task.value = if task.transparent == 0 { Vec3::ZERO } else { task.value * through };
+                    task.value = if task.transparent == 0 {
+                        Vec3::ZERO
+                    } else {
+                        task.value * through
+                    };
                     task.transparent = task.transparent.saturating_sub(1);
                 }
             }
@@ -113,7 +129,10 @@ impl Worker {
 }
 
 fn transparent_ray(ray: &Ray) -> Ray {
-    Ray { mask: ray_kind::TRANSPARENT_SHADOW, ..*ray }
+    Ray {
+        mask: ray_kind::TRANSPARENT_SHADOW,
+        ..*ray
+    }
 }
 
 fn step_behind(ray: &mut Ray, hit: &Hit) {

@@ -88,7 +88,9 @@ impl Frame<'_> {
     pub(crate) fn start_path(&self, tile: &Tile, pixel: u32, index: u32) -> Path {
         let [x, y] = tile.pixel(pixel);
         let seed = sobol_pixel_seed(x, y, self.seed);
-        let offset = self.filter.offset(sample::camera(seed, index, sample::FILTER));
+        let offset = self
+            .filter
+            .offset(sample::camera(seed, index, sample::FILTER));
         let lens = sample::camera(seed, index, sample::LENS);
         let ray = pixel_ray(&self.prepared.camera, [x, y], offset, lens);
         Path {

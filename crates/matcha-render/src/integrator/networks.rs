@@ -64,7 +64,9 @@ impl Networks {
         group: &[SurfaceTask],
         paths: &[Path],
     ) {
-        let hits = group.iter().map(|task| (task.hit, paths[task.path as usize].info(task.hit.t)));
+        let hits = group
+            .iter()
+            .map(|task| (task.hit, paths[task.path as usize].info(task.hit.t)));
         self.evaluate(frame, material, hits);
     }
 
@@ -76,15 +78,21 @@ impl Networks {
     ) {
         self.material = material;
         self.points.clear();
-        self.points
-            .extend(hits.map(|(hit, path)| frame.prepared.surfaces.point(frame.scene(), &hit, &path)));
+        self.points.extend(
+            hits.map(|(hit, path)| frame.prepared.surfaces.point(frame.scene(), &hit, &path)),
+        );
         let program = frame.program(material);
         let n = self.points.len();
         self.found.clear();
         self.found.resize(n, 0.0);
         let start = Instant::now();
         self.inputs.resize(program.input_rows(), n);
-        frame.prepared.surfaces.fill(frame.scene(), &program.inputs, &self.points, &mut self.inputs);
+        frame.prepared.surfaces.fill(
+            frame.scene(),
+            &program.inputs,
+            &self.points,
+            &mut self.inputs,
+        );
         let mut cache = frame.cache.map(|cache| {
             MaterialCache::new(
                 cache.table,
@@ -125,7 +133,11 @@ impl Networks {
     /// Evaluates the world in the directions of paths that left the scene.
     pub fn world_of_paths(&mut self, frame: &Frame, escaped: &[u32], paths: &[Path]) {
         self.rays.clear();
-        self.rays.extend(escaped.iter().map(|&path| paths[path as usize].info(f32::INFINITY)));
+        self.rays.extend(
+            escaped
+                .iter()
+                .map(|&path| paths[path as usize].info(f32::INFINITY)),
+        );
         self.world(frame);
     }
 
@@ -150,7 +162,12 @@ impl Networks {
         let n = self.rays.len();
         let start = Instant::now();
         self.inputs.resize(program.input_rows(), n);
-        fill_background(&frame.prepared.view, &program.inputs, &self.rays, &mut self.inputs);
+        fill_background(
+            &frame.prepared.view,
+            &program.inputs,
+            &self.rays,
+            &mut self.inputs,
+        );
         self.machine.run(
             program,
             n,
@@ -162,7 +179,8 @@ impl Networks {
         );
         self.time += start.elapsed();
         self.colors.clear();
-        self.colors.extend((0..n).map(|i| radiance(program, &self.outputs, i)));
+        self.colors
+            .extend((0..n).map(|i| radiance(program, &self.outputs, i)));
     }
 
     /// Radiance of an analytic light in the direction of a ray that meets it at `distance`.
@@ -183,9 +201,14 @@ impl Networks {
             };
         };
         let scene_light = frame.prepared.lights.analytic()[light as usize].scene_light;
-        let Some(program) = frame.prepared.light_program(scene_light) else { return factor };
+        let Some(program) = frame.prepared.light_program(scene_light) else {
+            return factor;
+        };
         self.rays.clear();
-        self.rays.push(PathInfo { ray_length: distance, ..shadow_info(direction) });
+        self.rays.push(PathInfo {
+            ray_length: distance,
+            ..shadow_info(direction)
+        });
         self.run_background(frame, program);
         factor * self.colors[0]
     }
@@ -234,11 +257,18 @@ impl Networks {
         material: u32,
         points: impl Iterator<Item = (Hit, Vec3)>,
     ) {
-        self.evaluate(frame, material, points.map(|(hit, towards)| (hit, shadow_info(towards))));
+        self.evaluate(
+            frame,
+            material,
+            points.map(|(hit, towards)| (hit, shadow_info(towards))),
+        );
     }
 
     fn collect(&mut self, frame: &Frame, read: impl Fn(&LobeSet) -> Vec3) {
-        let context = ClosureContext { scatter: false, ..ClosureContext::default() };
+        let context = ClosureContext {
+            scatter: false,
+            ..ClosureContext::default()
+        };
         let mut lobes = std::mem::take(&mut self.lobes);
         self.colors.clear();
         for i in 0..self.points.len() {

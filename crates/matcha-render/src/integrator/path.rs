@@ -122,7 +122,11 @@ impl Path {
             *count += 1;
             ends |= u32::from(*count) > limit;
         }
-        next |= if kind.diffuse { flags::DIFFUSE | flags::DIFFUSE_ANCESTOR } else { flags::GLOSSY };
+        next |= if kind.diffuse {
+            flags::DIFFUSE | flags::DIFFUSE_ANCESTOR
+        } else {
+            flags::GLOSSY
+        };
         if kind.singular {
             next |= flags::SINGULAR;
         }
@@ -156,7 +160,11 @@ impl Path {
             return 0.0;
         }
         let blur = self.min_pdf / settings.blur_glossy;
-        if blur < 1.0 { (1.0 - blur).sqrt() * 0.5 } else { 0.0 }
+        if blur < 1.0 {
+            (1.0 - blur).sqrt() * 0.5
+        } else {
+            0.0
+        }
     }
 }
 
@@ -166,9 +174,17 @@ pub fn clamp_contribution(light: Vec3, bounce: u32, settings: &Settings) -> Vec3
     if !light.is_finite() {
         return Vec3::ZERO;
     }
-    let limit = if bounce == 0 { settings.clamp_direct } else { settings.clamp_indirect };
+    let limit = if bounce == 0 {
+        settings.clamp_direct
+    } else {
+        settings.clamp_indirect
+    };
     let sum = light.abs().element_sum();
-    if limit > 0.0 && sum > 3.0 * limit { light * (3.0 * limit / sum) } else { light }
+    if limit > 0.0 && sum > 3.0 * limit {
+        light * (3.0 * limit / sum)
+    } else {
+        light
+    }
 }
 
 /// Weight of a technique with density `a` against one with density `b`

@@ -70,7 +70,11 @@ fn shade_hit(
     add_surface_emission(frame, path, task, lobes);
     let holdout = lobes.holdout.element_sum() / 3.0;
     if holdout > 0.0 || frame.is_holdout(&task.hit) {
-        let cut = if frame.is_holdout(&task.hit) { 1.0 } else { holdout.min(1.0) };
+        let cut = if frame.is_holdout(&task.hit) {
+            1.0
+        } else {
+            holdout.min(1.0)
+        };
         path.alpha -= path.throughput.element_sum() / 3.0 * cut;
         if cut >= 1.0 {
             return false;
@@ -97,12 +101,7 @@ fn shade_hit(
 }
 
 /// Adds what the surface emits, weighted against next-event estimation.
-fn add_surface_emission(
-    frame: &Frame,
-    path: &mut Path,
-    task: &SurfaceTask,
-    lobes: &LobeSet,
-) {
+fn add_surface_emission(frame: &Frame, path: &mut Path, task: &SurfaceTask, lobes: &LobeSet) {
     if lobes.emission == Vec3::ZERO {
         return;
     }
@@ -141,7 +140,11 @@ fn sample_light(
 ) {
     let draw = sample::three(path, Draw::Light);
     let normal = selection_normal(point, lobes);
-    let Some(light) = frame.prepared.lights.sample(point.position, normal, draw.x, draw.yz()) else {
+    let Some(light) = frame
+        .prepared
+        .lights
+        .sample(point.position, normal, draw.x, draw.yz())
+    else {
         return;
     };
     if u32::from(path.bounce) > light.max_bounces || !is_lit_by(path, &light) {
@@ -151,18 +154,33 @@ fn sample_light(
     if scattered.value == Vec3::ZERO || light.pdf <= 0.0 {
         return;
     }
-    let weight = if light.mis { power_heuristic(light.pdf, scattered.pdf) } else { 1.0 };
+    let weight = if light.mis {
+        power_heuristic(light.pdf, scattered.pdf)
+    } else {
+        1.0
+    };
     let mut value = path.throughput * scattered.value * (weight / light.pdf);
     let emitter = match light.radiance {
         Emission::Constant(radiance) => {
             value *= radiance;
-            let Some(factor) = keep_small(frame, path, value) else { return };
+            let Some(factor) = keep_small(frame, path, value) else {
+                return;
+            };
             value *= factor;
             Emitter::Known
         }
-        Emission::Triangle { instance, primitive, u, v } => {
-            Emitter::Surface(Hit { instance, primitive, t: light.distance, u, v })
-        }
+        Emission::Triangle {
+            instance,
+            primitive,
+            u,
+            v,
+        } => Emitter::Surface(Hit {
+            instance,
+            primitive,
+            t: light.distance,
+            u,
+            v,
+        }),
         Emission::World => Emitter::World,
         tree @ Emission::Tree { .. } => Emitter::Light(tree, light.distance),
     };
@@ -193,21 +211,37 @@ fn keep_small(frame: &Frame, path: &Path, value: Vec3) -> Option<f32> {
 
 /// The normal that light selection may rely on: none where light may also come from behind.
 fn selection_normal(point: &SurfacePoint, lobes: &LobeSet) -> Vec3 {
-    if lobes.reflects_only() { point.normal } else { Vec3::ZERO }
+    if lobes.reflects_only() {
+        point.normal
+    } else {
+        Vec3::ZERO
+    }
 }
 
 /// The ray to a sampled light; it stops short of the light's own surface.
 fn shadow_ray(point: &SurfacePoint, task: &SurfaceTask, light: &LightSample) -> Ray {
-    let start = point.position.lerp(point.shadow_origin, terminator_lift(point, light.wi));
+    let start = point
+        .position
+        .lerp(point.shadow_origin, terminator_lift(point, light.wi));
     let origin = offset_origin(start, point.true_normal, light.wi);
     let (direction, t_max) = if light.distance.is_finite() {
         let to_light = light.point - origin;
-        (to_light.normalize_or(light.wi), to_light.length() * (1.0 - 1e-4))
+        (
+            to_light.normalize_or(light.wi),
+            to_light.length() * (1.0 - 1e-4),
+        )
     } else {
         (light.wi, f32::INFINITY)
     };
     let excluded = [task.hit.instance, task.hit.primitive];
-    Ray { origin, direction, t_min: 0.0, t_max, mask: ray_kind::SHADOW, excluded }
+    Ray {
+        origin,
+        direction,
+        t_min: 0.0,
+        t_max,
+        mask: ray_kind::SHADOW,
+        excluded,
+    }
 }
 
 /// Share of the way to the smooth surface that a shadow ray starts at: all of it where light
@@ -217,7 +251,11 @@ fn terminator_lift(point: &SurfacePoint, wi: Vec3) -> f32 {
     const GRAZING: f32 = 0.1;
     let above_smooth = wi.dot(point.normal) > 0.0;
     let cosine = wi.dot(point.true_normal);
-    if above_smooth { (1.0 - cosine / GRAZING).clamp(0.0, 1.0) } else { 0.0 }
+    if above_smooth {
+        (1.0 - cosine / GRAZING).clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
 }
 
 /// Whether the light's ray visibility includes surfaces that the path reached like this one.

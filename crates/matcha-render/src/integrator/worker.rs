@@ -206,7 +206,8 @@ impl Worker {
         }
         if !self.finished.is_empty() {
             let finished = &self.finished;
-            self.active.retain(|index| finished.binary_search(index).is_err());
+            self.active
+                .retain(|index| finished.binary_search(index).is_err());
             self.free.extend_from_slice(finished);
         }
         self.finished.clear();

@@ -41,7 +41,10 @@ fn tree(shader: SourceNode, output: &str) -> NodeTree {
     NodeTree {
         name: shader.kind.clone(),
         nodes: vec![shader, node(output, surface, None)],
-        links: vec![Link { from: [0, 0], to: [1, 0] }],
+        links: vec![Link {
+            from: [0, 0],
+            to: [1, 0],
+        }],
     }
 }
 
@@ -55,7 +58,11 @@ pub fn diffuse(albedo: [f32; 3]) -> NodeTree {
         socket("Roughness", "VALUE", &[0.0]),
         normal,
     ];
-    let shader = node("ShaderNodeBsdfDiffuse", inputs, Some(socket("BSDF", "SHADER", &[])));
+    let shader = node(
+        "ShaderNodeBsdfDiffuse",
+        inputs,
+        Some(socket("BSDF", "SHADER", &[])),
+    );
     tree(shader, "ShaderNodeOutputMaterial")
 }
 
@@ -65,7 +72,11 @@ pub fn emission(radiance: f32) -> NodeTree {
         socket("Color", "RGBA", &[1.0; 4]),
         socket("Strength", "VALUE", &[radiance]),
     ];
-    let shader = node("ShaderNodeEmission", inputs, Some(socket("Emission", "SHADER", &[])));
+    let shader = node(
+        "ShaderNodeEmission",
+        inputs,
+        Some(socket("Emission", "SHADER", &[])),
+    );
     tree(shader, "ShaderNodeOutputMaterial")
 }
 
@@ -76,7 +87,10 @@ pub fn empty(height: f32) -> Scene {
         uv_names: vec![String::new()],
         camera: Camera {
             transform: Affine3A::from_translation(Vec3::Z * height),
-            projection: Projection::Perspective { tan_half_width: 0.2, fit: SensorFit::Auto },
+            projection: Projection::Perspective {
+                tan_half_width: 0.2,
+                fit: SensorFit::Auto,
+            },
             ..Camera::default()
         },
         settings: Settings {
@@ -106,11 +120,16 @@ pub fn add_material(scene: &mut Scene, tree: NodeTree) -> u32 {
 
 /// Adds an object with one material.
 pub fn add_mesh(scene: &mut Scene, positions: Vec<Vec3>, indices: Vec<[u32; 3]>, material: u32) {
-    let corners = |t: &[u32; 3]| t.map(|v| Vec2::new(positions[v as usize].x, positions[v as usize].y));
+    let corners =
+        |t: &[u32; 3]| t.map(|v| Vec2::new(positions[v as usize].x, positions[v as usize].y));
     let uv = indices.iter().map(corners).collect();
     scene.meshes.push(Mesh {
         name: format!("mesh {}", scene.meshes.len()),
-        uv_sets: vec![UvSet { name: 0, corners: uv, tangents: Vec::new() }],
+        uv_sets: vec![UvSet {
+            name: 0,
+            corners: uv,
+            tangents: Vec::new(),
+        }],
         positions,
         indices,
         material_slots: vec![material],
@@ -133,8 +152,17 @@ pub fn add_mesh(scene: &mut Scene, positions: Vec<Vec3>, indices: Vec<[u32; 3]>,
 /// A square of edge 2 `half` around `centre`, facing +Z, or −Z where `down`.
 pub fn add_square(scene: &mut Scene, centre: Vec3, half: f32, down: bool, material: u32) {
     let corner = |x: f32, y: f32| centre + Vec3::new(x * half, y * half, 0.0);
-    let positions = vec![corner(-1., -1.), corner(1., -1.), corner(1., 1.), corner(-1., 1.)];
+    let positions = vec![
+        corner(-1., -1.),
+        corner(1., -1.),
+        corner(1., 1.),
+        corner(-1., 1.),
+    ];
     let up = vec![[0, 1, 2], [0, 2, 3]];
-    let indices = if down { up.iter().map(|&[a, b, c]| [a, c, b]).collect() } else { up };
+    let indices = if down {
+        up.iter().map(|&[a, b, c]| [a, c, b]).collect()
+    } else {
+        up
+    };
     add_mesh(scene, positions, indices, material);
 }
