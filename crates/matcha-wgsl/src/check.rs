@@ -20,8 +20,10 @@ pub fn check(source: &Source, capabilities: Capabilities) -> Result<naga::Module
     Validator::new(ValidationFlags::all(), capabilities)
         .validate(&module)
         .map_err(|error| {
-            // Outer spans are whole functions: the last one is the narrowest.
-            let span = error.spans().last().map(|(span, _)| *span);
+            // Spans of the whole function and of its parameters are among them; the
+            // statement is what begins last.
+            let spans = error.spans().map(|(span, _)| *span);
+            let span = spans.max_by_key(|span| span.to_range().map(|range| range.start));
             let line = span.map(|s| s.location(source.text()).line_number);
             refused(source, line, chain(error.as_inner()))
         })?;

@@ -61,9 +61,8 @@ pub(crate) fn collect(modules: &[Module], faults: &mut Faults) -> (Vec<Item>, Sc
         }
     }
     let mut scope = Scope::default();
-    for item in &items {
-        faults.keep(&item.path, scope.define(item));
-    }
+    // Of two items of one name the first counts, so that its callers are not in doubt.
+    items.retain(|item| faults.keep(&item.path, scope.define(item)).is_some());
     for item in &items {
         faults.keep(&item.path, scope.describe(item));
     }

@@ -15,11 +15,12 @@
 //!
 //! # What is promised of a translation
 //!
-//! A function computes what its Rust does, operation by operation and in that order, with
-//! the exceptions that WGSL itself makes: a device may fuse a product and a sum, its
-//! division and square root may be off by 2.5 units in the last place, and it may treat
-//! numbers below 10⁻³⁸ as zero. Nothing is replaced by a builtin that computes something
-//! else: builtins stand in only where they give the same value for every argument.
+//! A function computes what its Rust does, operation by operation and in that order. WGSL
+//! lets a device deviate: fuse a product and a sum, reassociate (Mesa makes `(a + b) - a`
+//! into `b`), be off by 2.5 units in the last place of quotients and square roots, take −0
+//! for 0 and numbers below 10⁻³⁸ for zero, and assume that nothing is infinite or not a
+//! number. Whole numbers and bits are the same everywhere. Nothing is replaced by a builtin
+//! that computes something else.
 
 mod check;
 mod collect;

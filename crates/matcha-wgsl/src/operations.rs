@@ -77,15 +77,35 @@ pub struct Operation {
     pub is_loop: bool,
     /// Where its entry is.
     pub place: Place,
+    /// Names (in Rust) of its device functions.
+    pub functions: Vec<String>,
+    /// Its function.
+    pub source: Source,
 }
 
 /// The table in WGSL.
 #[derive(Clone, Debug)]
 pub struct Operations {
-    /// A function for each operation; to be appended to the device functions.
-    pub source: Source,
-    /// The operations by code.
+    /// The operations by code; fewer, where a program needs no others.
     pub entries: Vec<Operation>,
+}
+
+impl Operations {
+    /// A function for each operation, to be put behind the device functions.
+    pub fn source(&self) -> Source {
+        let mut source = Source::default();
+        self.entries
+            .iter()
+            .for_each(|entry| source.append(&entry.source));
+        source
+    }
+
+    /// Names (in Rust) of the device functions of all operations.
+    pub fn functions(&self) -> impl Iterator<Item = &str> {
+        self.entries
+            .iter()
+            .flat_map(|entry| entry.functions.iter().map(String::as_str))
+    }
 }
 
 /// Reads the table: `table` is the file with the list of families, `families` are the
@@ -105,7 +125,6 @@ pub fn operations(
     let order = faults
         .keep(&table.path, table::family_order(table))
         .unwrap_or_default();
-    let mut source = Source::default();
     let mut entries = Vec::new();
     for (line, name) in &order {
         let Some((path, family)) = parsed.iter().find(|(_, f)| f.name == *name) else {
@@ -114,19 +133,31 @@ pub fn operations(
             continue;
         };
         for entry in &family.entries {
-            if let Some(lines) = faults.keep(path, entry_lines(entry, device)) {
-                for (text, line) in lines {
-                    let path = path.to_string();
-                    source.push(&text, Place { path, line });
-                }
+            let mut source = Source::default();
+            for (text, line) in faults
+                .keep(path, entry_lines(entry, device))
+                .unwrap_or_default()
+            {
+                let path = path.to_string();
+                source.push(&text, Place { path, line });
             }
-            entries.push(described(entry, entries.len(), path));
+            entries.push(described(entry, entries.len(), path, source));
         }
     }
-    faults.or(Operations { source, entries })
+    faults.or(Operations { entries })
 }
 
-fn described(entry: &Entry, code: usize, path: &str) -> Operation {
+fn described(entry: &Entry, code: usize, path: &str, source: Source) -> Operation {
+    let functions = match &entry.form {
+        Form::Straight(function) => vec![function],
+        Form::Loop {
+            count,
+            init,
+            step,
+            finish,
+            ..
+        } => vec![count, init, step, finish],
+    };
     Operation {
         code: code as u16,
         name: entry.name.clone(),
@@ -138,6 +169,8 @@ fn described(entry: &Entry, code: usize, path: &str) -> Operation {
             path: path.to_owned(),
             line: entry.line,
         },
+        functions: functions.iter().map(|f| f.name.clone()).collect(),
+        source,
     }
 }
 

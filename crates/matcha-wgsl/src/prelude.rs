@@ -2,10 +2,13 @@
 //! translated from their bodies but become an operator or a builtin.
 //!
 //! Only those are here for which WGSL gives the same value for every argument, not-a-number
-//! and the sign of zero included. So `min`, `max`, `clamp`, `floor` and everything
-//! transcendental are NOT here: WGSL leaves open what its `min` makes of not-a-number, its
-//! `floor(-0.0)` is −0 (which hashes to something else than 0), and its `sin` is as good
-//! as the device's.
+//! and the sign of zero included. So `min`, `max`, `clamp` and everything transcendental
+//! are NOT here: WGSL leaves open what its `min` makes of not-a-number, and its `sin` is
+//! as good as the device's.
+//!
+//! `floor` and `trunc` are here because their bodies would not do: drivers take a float's
+//! integer's float for WGSL's `trunc`, which keeps the sign of a zero (Mesa 22.3 does), and
+//! −0 hashes to another cell than 0. The device's never give −0.
 
 use crate::types::Ty;
 
@@ -36,6 +39,18 @@ pub(crate) const INTRINSICS: &[(&str, Intrinsic)] = &[
     ("wrapping_mul", Intrinsic::Operator("*")),
     ("wrapping_add", Intrinsic::Operator("+")),
     ("wrapping_sub", Intrinsic::Operator("-")),
+    (
+        "floor",
+        Intrinsic::Helper(
+            "fn floor_(x: f32) -> f32 { let y = floor(x); return select(y, 0.0f, y == 0.0f); }",
+        ),
+    ),
+    (
+        "trunc",
+        Intrinsic::Helper(
+            "fn trunc_(x: f32) -> f32 { let y = trunc(x); return select(y, 0.0f, y == 0.0f); }",
+        ),
+    ),
     (
         "rotate_left",
         Intrinsic::Helper(

@@ -51,19 +51,42 @@ pub struct Translation {
     pub source: Source,
     /// The functions, by name in Rust.
     pub functions: BTreeMap<String, Function>,
+    pieces: Vec<Piece>,
+}
+
+impl Translation {
+    /// Only what the device functions of these names (in Rust) need, and they themselves.
+    pub fn needed<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> Source {
+        let mut needed: BTreeSet<&str> = names.into_iter().collect();
+        // Needs come before what needs them.
+        for piece in self.pieces.iter().rev() {
+            if needed.contains(piece.name.as_str()) {
+                needed.extend(piece.uses.iter().map(String::as_str));
+            }
+        }
+        let mut source = Source::default();
+        let kept = self
+            .pieces
+            .iter()
+            .filter(|p| needed.contains(p.name.as_str()));
+        kept.for_each(|piece| piece.write(&mut source));
+        source
+    }
 }
 
 /// Translates modules, which see each other's items by name. All errors of all modules
-/// are reported together.
+/// are reported together: those of items' faces first, then those of bodies.
 pub fn translate(modules: &[Module]) -> Result<Translation, TranslateError> {
     let mut faults = Faults::default();
     let (items, scope) = collect(modules, &mut faults);
+    // Errors in the faces of items would only be followed by more of the same cause.
+    faults.or(())?;
+    let mut faults = Faults::default();
     let mut pieces = helpers();
     for item in &items {
         let piece = faults.keep(&item.path, translate_item(item, &scope));
         pieces.extend(piece);
     }
-    // Errors in types would only be followed by more of the same cause.
     faults.or(())?;
     let mut faults = Faults::default();
     let needs: Vec<(&str, &BTreeSet<String>)> =
@@ -76,20 +99,25 @@ pub fn translate(modules: &[Module]) -> Result<Translation, TranslateError> {
             Vec::new()
         }
     };
+    let mut pieces: Vec<Option<Piece>> = pieces.into_iter().map(Some).collect();
+    let pieces: Vec<Piece> = order.iter().filter_map(|&i| pieces[i].take()).collect();
     let mut source = Source::default();
-    for item in order {
-        pieces[item].write(&mut source);
-    }
+    pieces.iter().for_each(|piece| piece.write(&mut source));
     let written = items.iter().filter_map(|i| describe(i, &scope));
     let offered = INTRINSICS
         .iter()
         .filter_map(|(name, i)| offered(name, *i, &scope));
     let functions = written.chain(offered);
     let functions = functions.map(|f| (f.name.clone(), f)).collect();
-    faults.or(Translation { source, functions })
+    faults.or(Translation {
+        source,
+        functions,
+        pieces,
+    })
 }
 
 /// An item in WGSL.
+#[derive(Clone, Debug)]
 struct Piece {
     name: String,
     place: Place,
@@ -199,14 +227,14 @@ fn describe(item: &Item, scope: &Scope) -> Option<Function> {
 /// A prelude function that is a function of WGSL, too.
 fn offered(name: &str, intrinsic: Intrinsic, scope: &Scope) -> Option<Function> {
     let wgsl_name = match intrinsic {
-        Intrinsic::Builtin(builtin) => builtin,
-        Intrinsic::Helper(_) => name,
+        Intrinsic::Builtin(builtin) => builtin.to_owned(),
+        Intrinsic::Helper(_) => crate::names::escaped(name),
         Intrinsic::Operator(_) | Intrinsic::Construct => return None,
     };
     let signature = scope.functions.get(name)?;
     Some(Function {
         name: name.to_owned(),
-        wgsl_name: wgsl_name.to_owned(),
+        wgsl_name,
         parameters: signature.parameters.clone(),
         result: signature.result.clone(),
         place: scope.defined.get(name)?.clone(),

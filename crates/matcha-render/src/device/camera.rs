@@ -101,7 +101,7 @@ pub fn camera_ray(camera: RasterCamera, raster: Vec2, lens: Vec2) -> CameraRay {
         let point = camera_aperture(camera, lens) * camera.lens_radius;
         let on_lens = vec3(point.x, point.y, 0.0);
         direction = direction * camera.focus - on_lens;
-        origin = origin + on_lens;
+        origin += on_lens;
     }
     direction = normalize(direction);
     let area = abs(camera.step.x * camera.step.y);

@@ -9,7 +9,7 @@
 //! different dimensions are independent.
 
 use glam::{Vec2, Vec3};
-use matcha_shade::device::math::{vec2, vec3, wrapping_add, wrapping_mul};
+use matcha_shade::device::math::{rotate_left, vec2, vec3, wrapping_add, wrapping_mul};
 
 /// Reversed third Sobol dimension, as a table over the index's eight nibbles: entry
 /// `16 * k + v` is the sum (XOR) of the direction numbers that bits `v << 4k` select.
@@ -153,7 +153,7 @@ pub fn sobol_reverse(x: u32) -> u32 {
     let b = ((a >> 2) & 0x3333_3333) | ((a & 0x3333_3333) << 2);
     let c = ((b >> 4) & 0x0f0f_0f0f) | ((b & 0x0f0f_0f0f) << 4);
     let d = ((c >> 8) & 0x00ff_00ff) | ((c & 0x00ff_00ff) << 8);
-    (d >> 16) | (d << 16)
+    rotate_left(d, 16)
 }
 
 /// Nested uniform scramble of a number with reversed bits (Vegdahl 2021, "Building a

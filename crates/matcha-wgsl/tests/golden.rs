@@ -1,0 +1,158 @@
+//! Small device modules and what becomes of them.
+
+use matcha_wgsl::{Module, check, translate};
+use naga::valid::Capabilities;
+
+/// The WGSL of a module, which naga accepts.
+fn wgsl(source: &str) -> String {
+    let module = |path: &str, source: &str| Module {
+        path: path.to_owned(),
+        source: source.to_owned(),
+    };
+    let prelude = "
+        pub fn vec3(x: f32, y: f32, z: f32) -> Vec3 { Vec3 { x, y, z } }
+        pub fn select(f: f32, t: f32, c: bool) -> f32 { select_unpredictable(c, t, f) }
+        pub fn bits_of(x: f32) -> u32 { x.to_bits() }
+        pub fn wrapping_mul(a: u32, b: u32) -> u32 { a.wrapping_mul(b) }
+        pub fn min(a: f32, b: f32) -> f32 { select(b, a, a < b) }";
+    let modules = [module("math.rs", prelude), module("golden.rs", source)];
+    let translation = translate(&modules).unwrap_or_else(|e| panic!("{e}"));
+    check(&translation.source, Capabilities::empty())
+        .unwrap_or_else(|e| panic!("{e}\n{}", translation.source.text()));
+    let of_golden = (1..).zip(translation.source.text().lines());
+    let lines = of_golden.filter_map(|(number, text)| {
+        let origin = translation.source.origin(number)?;
+        let is_blank = text.is_empty();
+        (origin.path == "golden.rs" && !is_blank).then(|| format!("{:3} | {text}", origin.line))
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn numbers_and_casts() {
+    insta::assert_snapshot!(wgsl(
+        "
+pub const SMALL: f32 = 1.0e-30;
+pub const MASK: u32 = 0xffff_0000;
+pub const SUM: u32 = MASK + (1 << 2);
+pub fn numbers(x: f32, k: u32, i: i32, b: bool) -> f32 {
+    let a = k as i32 as f32;
+    let c = (i as u32) >> 3;
+    let d = i >> k;
+    let e = k << i;
+    let f = b as u32 + !k;
+    let g = -2147483648;
+    let h = 3 * c + 0x10;
+    let m = core::f32::consts::PI * f32::EPSILON * -0.0;
+    let j = -(-x);
+    a + c as f32 + d as f32 + (e + f + h) as f32 + (g + i) as f32 + m + j
+}"
+    ));
+}
+
+#[test]
+fn choices() {
+    insta::assert_snapshot!(wgsl(
+        "
+pub fn choices(x: f32, k: u32) -> f32 {
+    if k == 7 {
+        return x;
+    }
+    let y = if x > 0.0 { x } else if k == 1 { 2.0 } else { let z = x * x; z + 1.0 };
+    let mut w = min(y, if k == 2 { 3.0 } else { 4.0 }) + { let q = y; q * q };
+    if (k == 3) | (x < 0.0) && !(k == 4) {
+        w = if k == 5 { 1.0 } else { w };
+    } else if min(x, if k == 6 { 0.0 } else { 1.0 }) > 0.5 {
+        w += 2.0;
+    } else {
+        w -= 1.0;
+    }
+    if k > 10 { w } else { -w }
+}"
+    ));
+}
+
+#[test]
+fn loops() {
+    insta::assert_snapshot!(wgsl(
+        "
+pub fn loops(x: f32, n: u32) -> f32 {
+    let mut i = 0;
+    let mut sum = 0.0;
+    while i < n && sum < 100.0 {
+        let x = x + sum;
+        if x < 0.0 { i += 2; continue; }
+        sum += x;
+        i += 1;
+    }
+    let mut j = 0;
+    while min(sum, if j == 1 { 1.0 } else { 2.0 }) > 0.5 {
+        sum *= 0.5;
+        j += 1;
+    }
+    loop {
+        sum -= 1.0;
+        if sum < 0.0 { break; }
+    }
+    sum
+}"
+    ));
+}
+
+#[test]
+fn arrays_and_structs() {
+    insta::assert_snapshot!(wgsl(
+        "
+const TABLE: [u32; 4] = [1, 2, 3, 0xff];
+const COUNT: usize_length = 2;
+pub struct Pair { pub at: Vec3, pub weights: [f32; 3], pub on: bool }
+pub fn arrays(s: [f32; 3], k: u32) -> Pair {
+    let mut t = [0.0; 3];
+    t[(k % 3) as usize] = s[(k % 2) as usize] + s[2];
+    t[1] += TABLE[(k & 3) as usize] as f32;
+    let weights = [t[0], min(s[0], s[1]), 1.0];
+    let mut pair = Pair { weights, at: Vec3 { z: 1.0, x: s[0], y: 2.0 }, on: k == 0 };
+    pair.at.x = pair.at.x * 2.0;
+    pair.weights[0] = Vec3::splat(s[1]).y + Vec3::ZERO.z;
+    pair
+}"
+        .replace("const COUNT: usize_length = 2;\n", "")
+        .as_str()
+    ));
+}
+
+#[test]
+fn names() {
+    insta::assert_snapshot!(wgsl(
+        "
+pub struct Ref { pub r#override: f32 }
+pub fn exp(target: f32, mut mix: f32, _: f32, _unused: u32) -> f32 {
+    let target = target + 1.0;
+    let target = target * target;
+    mix += target;
+    let var = Ref { r#override: mix };
+    {
+        let mix = 2.0;
+        var.r#override * mix
+    }
+}
+pub fn inverse(x: f32) -> f32 { exp(x, x, x, 1) }"
+    ));
+}
+
+#[test]
+fn intrinsics_and_inference() {
+    insta::assert_snapshot!(wgsl(
+        "
+pub fn intrinsics(x: f32, k: u32) -> u32 {
+    let start = 0;
+    let late;
+    if k > 3 { late = 1; } else { late = 2; }
+    let h = wrapping_mul(bits_of(x) ^ start, k | 1) >> late;
+    let v = vec3(x, select(0.0, x, k == 1), 1.0) * 2.0;
+    let both = (x > 0.0) ^ (k == 2);
+    let i = 5;
+    h + (bits_of(v.y) & wrapping_mul(k, k)) + both as u32 + (i as f32 > x) as u32
+}"
+    ));
+}
