@@ -75,8 +75,11 @@ impl Table {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         std::thread::scope(|scope| {
             for part in words.chunks(words.len().div_ceil(threads)) {
-                // A write that changes nothing: a read would not make the page ours.
-                let touch = |word: &AtomicU64| word.fetch_or(0, Ordering::Relaxed);
+                // A write that changes nothing: a read would not make the page ours, and
+                // arithmetic that changes nothing is compiled to a read.
+                let touch = |word: &AtomicU64| {
+                    word.compare_exchange(EMPTY, EMPTY, Ordering::Relaxed, Ordering::Relaxed)
+                };
                 scope.spawn(move || {
                     part.iter()
                         .step_by(WORDS_OF_A_PAGE)

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 /// A path tracer that keeps what material networks compute.
 #[derive(Debug, Parser)]
-#[command(name = "matcha", version, arg_required_else_help = true)]
+#[command(name = "matcha", version)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub command: Command,

@@ -13,6 +13,7 @@ mod session;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
+use clap::error::ErrorKind;
 use std::process::ExitCode;
 
 /// Runs the command line of this process. Every error is one sentence on standard
@@ -32,7 +33,7 @@ pub fn main() -> ExitCode {
         Ok(End::Done) => ExitCode::SUCCESS,
         Ok(End::Interrupted) => ExitCode::from(130),
         Err(error) => {
-            eprintln!("matcha: {}", one_line(&format!("{error:#}")));
+            eprintln!("matcha: {}", one_line(&sentence(&error)));
             ExitCode::from(2)
         }
     }
@@ -51,6 +52,10 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
         let _ = error.print();
         return ExitCode::SUCCESS;
     }
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        eprintln!("matcha: no command was given; there are render, compare and inspect");
+        return ExitCode::from(2);
+    }
     let text = error.render().to_string();
     // What clap says before its usage and tips is the sentence.
     let sentence: Vec<&str> = text
@@ -62,6 +67,19 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
     let sentence = sentence.strip_prefix("error: ").unwrap_or(&sentence);
     eprintln!("matcha: {}", one_line(sentence));
     ExitCode::from(2)
+}
+
+/// An error with its causes, each once: some errors say their cause themselves.
+fn sentence(error: &anyhow::Error) -> String {
+    let mut sentence = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if sentence.is_empty() {
+            sentence = cause;
+        } else if !sentence.contains(&cause) {
+            sentence += &format!(": {cause}");
+        }
+    }
+    sentence
 }
 
 fn one_line(text: &str) -> String {
@@ -80,4 +98,19 @@ fn start_log() {
         .with_target(false)
         .compact()
         .init();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use anyhow::Context;
+
+    #[test]
+    fn causes_are_said_once() {
+        let missing = || Err::<(), _>(std::io::Error::other("disk full"));
+        let plain = missing().context("a.png: cannot be written").unwrap_err();
+        assert_eq!(sentence(&plain), "a.png: cannot be written: disk full");
+        let said = missing().context("a.png: disk full").unwrap_err();
+        assert_eq!(sentence(&said), "a.png: disk full");
+    }
 }

@@ -69,10 +69,12 @@ impl Loaded {
 
     /// A renderer of the scene.
     pub fn backend(&self, options: &Options, cache: Cache) -> Result<CpuBackend> {
-        Ok(CpuBackend::new(
-            self.prepared.clone(),
-            &options.render_options(cache),
-        )?)
+        match options.device {
+            Device::Auto | Device::Cpu => {
+                let options = options.render_options(cache);
+                Ok(CpuBackend::new(self.prepared.clone(), &options)?)
+            }
+        }
     }
 
     /// Picture size, pixels.

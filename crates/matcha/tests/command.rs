@@ -32,7 +32,8 @@ fn assert_refused(arguments: &[&str], part: &str) {
 
 #[test]
 fn arguments_that_make_no_sense_are_refused_in_a_sentence() {
-    let cases: [(&[&str], &str); 13] = [
+    let cases: [(&[&str], &str); 14] = [
+        (&[], "no command was given"),
         (&["render", "a.glb"], "--output"),
         (&["render", "a.glb", "-o", "a.jpg"], ".exr or .png"),
         (
@@ -41,7 +42,7 @@ fn arguments_that_make_no_sense_are_refused_in_a_sentence() {
         ),
         (
             &["render", "a.glb", "-o", "a.png", "--samples", "-3"],
-            "--samples",
+            "'-3'",
         ),
         (
             &["render", "a.glb", "-o", "a.png", "--resolution", "1920"],
@@ -227,6 +228,8 @@ fn a_comparison_has_its_six_files_and_exactly_its_keys() {
         text(&output),
         "--samples",
         "20",
+        "--cells",
+        "1000",
         "--resolution",
         "40x30",
     ]);

@@ -56,6 +56,7 @@ mod tests {
         crate::picture::view::tests::check_reference(
             include_str!("../../tests/data/filmic.csv"),
             display,
+            0,
         );
     }
 

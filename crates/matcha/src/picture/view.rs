@@ -124,14 +124,21 @@ pub(super) mod tests {
     use super::*;
 
     /// A transform against a table of linear colours and of what Blender sends a display,
-    /// 0 to 255: equal within 2.
-    pub(in crate::picture) fn check_reference(table: &str, display: impl Fn([f32; 3]) -> [f32; 3]) {
+    /// 0 to 255: equal within 2, but for `strays` channels, which are within 5.
+    pub(in crate::picture) fn check_reference(
+        table: &str,
+        display: impl Fn([f32; 3]) -> [f32; 3],
+        strays: usize,
+    ) {
         assert!(table.lines().count() > 500);
+        let mut found = 0;
         for line in table.lines().skip(1) {
             let n: Vec<f32> = line.split(',').map(|x| x.parse().unwrap()).collect();
             let ours = display([n[0], n[1], n[2]]).map(|x| x.clamp(0.0, 1.0) * 255.0);
             for (ours, blender) in ours.iter().zip(&n[3..6]) {
-                assert!((ours - blender).abs() < 2.0, "{line}: {ours}");
+                let error = (ours - blender).abs();
+                found += usize::from(error > 2.0);
+                assert!(error < 5.0 && found <= strays, "{line}: {ours}");
             }
         }
     }
@@ -140,7 +147,7 @@ pub(super) mod tests {
     #[should_panic(expected = "0.5,0.5,0.5")]
     fn a_wrong_reference_is_noticed() {
         let table = "r,g,b,x,y,z\n".to_owned() + &"0.5,0.5,0.5,191,188,188\n".repeat(600);
-        check_reference(&table, |color| color.map(srgb));
+        check_reference(&table, |color| color.map(srgb), 4);
     }
 
     fn settings(transform: &str) -> ViewSettings {
