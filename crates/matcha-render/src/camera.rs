@@ -95,6 +95,7 @@ fn half_sides(size: Vec2, pixel_aspect: f32, fit: SensorFit, fitted: f32) -> Hal
 }
 
 #[cfg(test)]
+#[allow(clippy::excessive_precision)] // Numbers as Blender printed them.
 mod blender_projection;
 #[cfg(test)]
 mod tests;

@@ -186,7 +186,8 @@ fn check_indices(scene: &Scene) -> Result<(), RenderError> {
                 .materials
                 .get(slot)
                 .or_else(|| mesh.material_slots.get(slot));
-            if !mesh.indices.is_empty() && !given.is_some_and(|&m| (m as usize) < count) {
+            let exists = given.is_some_and(|&m| (m as usize) < count);
+            if !(exists || mesh.indices.is_empty()) {
                 return Err(RenderError::Scene(format!(
                     "object \"{}\": slot {slot} of mesh \"{}\" has no material",
                     instance.name, mesh.name

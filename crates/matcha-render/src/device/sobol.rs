@@ -8,6 +8,9 @@
 //! sample index shuffled (itself a nested scramble, Burley 2020 §4) so that draws of
 //! different dimensions are independent.
 
+// Device code has no methods: a rotation is written out.
+#![allow(clippy::manual_rotate)]
+
 use glam::{Vec2, Vec3};
 use matcha_shade::device::math::{rotate_left, vec2, vec3, wrapping_add, wrapping_mul};
 

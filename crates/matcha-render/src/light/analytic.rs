@@ -73,7 +73,7 @@ pub fn convert(light: &Light, index: u32) -> Option<LightOf> {
     let sane = center.is_finite() && shape.radiance.is_finite() && axes.z != Vec3::ZERO;
     // A light with a node tree may shine whatever its colour is; without power it cannot.
     let power = shape.radiance.abs().max_element();
-    (sane && power > 0.0).then(|| LightOf {
+    (sane && power > 0.0).then_some(LightOf {
         scene_light: index,
         tree: light.tree,
         cast_shadow: light.cast_shadow,
