@@ -125,6 +125,9 @@ pub fn operations(
     let order = faults
         .keep(&table.path, table::family_order(table))
         .unwrap_or_default();
+    // A family that does not read would be reported as missing, too.
+    faults.or(())?;
+    let mut faults = Faults::default();
     let mut entries = Vec::new();
     for (line, name) in &order {
         let Some((path, family)) = parsed.iter().find(|(_, f)| f.name == *name) else {
