@@ -26,7 +26,7 @@ pub enum Ty {
     Unit,
     /// Of what does not go on.
     Never,
-    /// Not known yet: a slot of [`Inference`].
+    /// Not known yet; never in a finished signature.
     Unknown(usize),
 }
 
