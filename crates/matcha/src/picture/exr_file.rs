@@ -34,8 +34,10 @@ pub fn encode(film: &Film) -> std::result::Result<Vec<u8>, Error> {
         blocks: Blocks::ScanLines,
         line_order: LineOrder::Increasing,
     };
-    let mut attributes = LayerAttributes::default();
-    attributes.software_name = Some(Text::from("matcha"));
+    let attributes = LayerAttributes {
+        software_name: Some(Text::from("matcha")),
+        ..LayerAttributes::default()
+    };
     let layer = Layer::new(size, attributes, encoding, AnyChannels::sort(channels));
     let mut bytes = Cursor::new(Vec::new());
     Image::from_layer(layer).write().to_buffered(&mut bytes)?;
@@ -91,10 +93,7 @@ mod tests {
             .unwrap();
         let channels = &image.layer_data.channel_data.list;
         let value = |name: &str| {
-            let channel = channels
-                .iter()
-                .find(|c| c.name == Text::from(name))
-                .unwrap();
+            let channel = channels.iter().find(|c| c.name.eq(name)).unwrap();
             channel.sample_data.values_as_f32().nth(5).unwrap()
         };
         assert_eq!(channels.len(), 12);
@@ -110,10 +109,7 @@ mod tests {
         ] {
             assert_eq!(value(name), expected, "{name}");
         }
-        let first = channels
-            .iter()
-            .find(|c| c.name == Text::from("depth.Z"))
-            .unwrap();
+        let first = channels.iter().find(|c| c.name.eq("depth.Z")).unwrap();
         assert_eq!(
             first.sample_data.values_as_f32().next(),
             Some(f32::INFINITY)
