@@ -6,6 +6,7 @@ use crate::closure::Ty;
 use crate::compile::CostModel;
 use crate::graph::{Encoding, Graph, NodeId, NodeKind};
 use crate::input::Dependency;
+use crate::ops::OpCode;
 use crate::opt::Network;
 
 /// What a value depends on if it is made of two.
@@ -120,9 +121,10 @@ fn candidates(network: &Network) -> Vec<NodeId> {
         graph.node(id).inputs.iter().copied().for_each(&mut mark);
     }
     let computes = contains_operation(graph);
+    let height = heights(graph, &live, is_uv);
     graph
         .ids()
-        .filter(|id| highest[id.index()] && computes[id.index()])
+        .filter(|id| highest[id.index()] && computes[id.index()] && !height[id.index()])
         .collect()
 }
 
@@ -140,6 +142,23 @@ fn whole(graph: &Graph, id: NodeId) -> NodeId {
         }
         _ => id,
     }
+}
+
+/// What the heights of bumps are made of that depend on more than UV. Such a bump takes
+/// differences along the footprint's own axes, and a texel knows neither these nor how
+/// far it is from its neighbours: its heights are steps.
+fn heights(graph: &Graph, live: &[bool], is_uv: impl Fn(NodeId) -> bool) -> Vec<bool> {
+    let mut height = vec![false; graph.nodes().len()];
+    for id in graph.ids().rev().filter(|id| live[id.index()]) {
+        let node = graph.node(id);
+        let differs = matches!(node.kind, NodeKind::Apply(OpCode::bump_change, _));
+        if height[id.index()] || differs && !is_uv(id) {
+            for input in &node.inputs {
+                height[input.index()] = true;
+            }
+        }
+    }
+    height
 }
 
 fn contains_operation(graph: &Graph) -> Vec<bool> {
@@ -291,7 +310,6 @@ mod tests {
     use super::*;
     use crate::compile::CostModel;
     use crate::input::{InputKind, Part};
-    use crate::ops::OpCode;
     use crate::opt::fold::network_of;
     use crate::vm::Isa;
 
@@ -338,6 +356,28 @@ mod tests {
         assert_eq!(chosen.len(), 1);
         let kind = network.graph.node(chosen[0].0).kind;
         assert_eq!(kind, NodeKind::Apply(OpCode::math_add, 0));
+    }
+
+    /// A bump of a height that `beside` joins.
+    fn bumped(beside: InputKind) -> Network {
+        network_of(|g| {
+            let a = costly(g, 0);
+            let other = g.value(beside);
+            let b = g.component(other, 0);
+            let height = g.apply(OpCode::math_add, &[a, b]);
+            let [ahead_a, ahead_b] =
+                [Part::AxisA, Part::AxisB].map(|axis| g.shifted(height, axis, 0.1));
+            let width = g.f1(0.1);
+            let change = g.apply(OpCode::bump_change, &[height, ahead_a, ahead_b, width]);
+            let x = g.component(change, 0);
+            tinted(g, &[x])
+        })
+    }
+
+    #[test]
+    fn heights_of_more_than_uv_are_not_chosen() {
+        assert_eq!(choose(&bumped(InputKind::Position), &costs(0.0)), []);
+        assert_eq!(choose(&bumped(InputKind::Uv(0)), &costs(0.0)).len(), 1);
     }
 
     #[test]
