@@ -78,6 +78,9 @@ pub enum ClosureKind {
     Principled(Distribution),
     /// Makes the film transparent.
     Holdout,
+    /// Scatters nothing: gives the surface's shading normal where displacement bends it.
+    /// Other closures are told apart from it (bump shadowing), not from the mesh's normal.
+    ShadingNormal,
 }
 
 /// A named parameter.
@@ -169,7 +172,7 @@ impl ClosureKind {
             | ClosureKind::Holdout => &[],
             ClosureKind::Diffuse => const { &[ROUGHNESS, NORMAL, COLOR] },
             ClosureKind::Sheen(_) => const { &[ROUGHNESS, NORMAL] },
-            ClosureKind::Translucent => const { &[NORMAL] },
+            ClosureKind::Translucent | ClosureKind::ShadingNormal => const { &[NORMAL] },
             ClosureKind::Glossy(Distribution::MultiGgx) => GLOSSY_MULTIPLE,
             ClosureKind::Glossy(_) => GLOSSY,
             ClosureKind::Glass(Distribution::MultiGgx) => {

@@ -97,6 +97,8 @@ pub fn prepare_closure(
             bench.set.holdout += weight;
         }
         ClosureKind::Principled(d) => prepare_principled(&mut bench, weight, d, &mut read),
+        // Already in the frame.
+        ClosureKind::ShadingNormal => {}
         _ if !context.scatter => {}
         ClosureKind::Diffuse => {
             let (roughness, normal) = (read.f1(), bench.normal(read.f3()));

@@ -11,7 +11,7 @@ use crate::surface::{BackgroundRay, PathInfo, SurfacePoint, fill_background};
 use glam::Vec3;
 use matcha_cache::CacheCounts;
 use matcha_shade::closure::ClosureKind;
-use matcha_shade::program::Program;
+use matcha_shade::program::{ClosureOutput, Program};
 use matcha_shade::rows::Rows;
 use matcha_shade::vm::{Machine, NodeCache};
 use std::time::{Duration, Instant};
@@ -307,6 +307,15 @@ pub fn radiance(program: &Program, outputs: &Rows, i: usize) -> Vec3 {
         .sum()
 }
 
+/// The normal that displacement as bump gives point `i`, if the material has any.
+fn shading_normal(program: &Program, outputs: &Rows, i: usize) -> Option<Vec3> {
+    let is_normal = |c: &&ClosureOutput| c.kind == ClosureKind::ShadingNormal;
+    let output = program.closures.iter().find(is_normal)?;
+    let first = output.first_row + 3;
+    let normal = Vec3::from_array(std::array::from_fn(|k| outputs.row(first + k)[i]));
+    normal.try_normalize()
+}
+
 /// Makes the lobes of point `i` from its output rows.
 fn build_lobes(
     program: &Program,
@@ -317,7 +326,7 @@ fn build_lobes(
     lobes: &mut LobeSet,
 ) {
     let frame = closure::Frame {
-        n: point.normal,
+        n: shading_normal(program, outputs, i).unwrap_or(point.normal),
         ng: point.true_normal,
         wo: point.outgoing,
         backfacing: point.backfacing,

@@ -3,7 +3,8 @@
 use super::bump::displaced_normal;
 use super::walk::FrameId;
 use super::{At, Lowered, Lowering, Value};
-use crate::material::MaterialKind;
+use crate::closure::ClosureKind;
+use crate::material::{ClosureId, MaterialKind};
 use crate::source::{Property, SourceNode};
 
 impl Lowering<'_> {
@@ -33,8 +34,20 @@ impl Lowering<'_> {
             },
             None => self.closures.none(),
         };
-        self.closures.root = Some(surface);
+        self.closures.root = Some(self.with_displaced_normal(surface));
         Ok(())
+    }
+
+    /// The surface's closures and the normal that its displacement bends.
+    fn with_displaced_normal(&mut self, surface: ClosureId) -> ClosureId {
+        let Some(normal) = self.normal else {
+            return surface;
+        };
+        let white = self.graph.f3([1.0; 3]);
+        let kind = ClosureKind::ShadingNormal;
+        let span = self.graph.span();
+        let leaf = self.closures.leaf(&self.graph, kind, white, vec![normal], span);
+        self.closures.add(surface, leaf)
     }
 
     /// The active output for Cycles, else any.
