@@ -12,7 +12,8 @@ use matcha_cache::CacheCounts;
 use std::ops::Range;
 use std::time::Duration;
 
-/// Paths in flight on one thread (settled by measurement, see `docs/adr/0004-batches.md`).
+/// Paths in flight on one thread: their state (about half a megabyte) stays in the
+/// second-level cache.
 pub const BATCH: usize = 2048;
 
 /// A path at a surface.
