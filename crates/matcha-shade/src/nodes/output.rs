@@ -46,7 +46,9 @@ impl Lowering<'_> {
         let white = self.graph.f3([1.0; 3]);
         let kind = ClosureKind::ShadingNormal;
         let span = self.graph.span();
-        let leaf = self.closures.leaf(&self.graph, kind, white, vec![normal], span);
+        let leaf = self
+            .closures
+            .leaf(&self.graph, kind, white, vec![normal], span);
         self.closures.add(surface, leaf)
     }
 
