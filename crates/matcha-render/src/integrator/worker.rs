@@ -126,6 +126,10 @@ impl Worker {
         let per_pixel = range.len() as u64;
         let total = per_pixel * u64::from(tile.pixels());
         let mut next = 0;
+        // Places of earlier tiles are forgotten: sums are added in the order of places, and a
+        // tile must not depend on what its thread did before.
+        self.paths.clear();
+        self.free.clear();
         loop {
             next = self.fill(frame, tile, &range, next, total);
             if self.active.is_empty() {
