@@ -1,6 +1,7 @@
 //! Groups, muted nodes, conversions, and trees that make no sense.
 
 use super::*;
+use crate::closure::ClosureKind;
 use crate::graph::NodeKind;
 use crate::material::ClosureNode;
 use crate::source::{Link, Property, Socket};
@@ -336,9 +337,22 @@ fn a_displacement_bends_the_normals_that_nothing_names() {
     let Some(root) = material.closures.root else {
         panic!("no closure");
     };
-    let ClosureNode::Leaf { params, .. } = &material.closures.nodes()[root.0 as usize] else {
-        panic!("no leaf");
+    let nodes = material.closures.nodes();
+    let ClosureNode::Add(surface, bent) = nodes[root.0 as usize] else {
+        panic!("no normal beside the surface");
     };
+    let (
+        ClosureNode::Leaf { params, .. },
+        ClosureNode::Leaf {
+            kind: ClosureKind::ShadingNormal,
+            params: bent,
+            ..
+        },
+    ) = (&nodes[surface.0 as usize], &nodes[bent.0 as usize])
+    else {
+        panic!("no leaves");
+    };
+    assert_eq!(params[1], bent[0]);
     let normal = material.graph.node(params[1]);
     assert!(matches!(normal.kind, NodeKind::Apply(op, _) if op.info().name == "bump_bend"));
     // The height is of UV alone: its gradient in UV is what the cache may keep.
