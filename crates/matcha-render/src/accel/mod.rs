@@ -1,7 +1,7 @@
 //! Where rays meet the scene: a hierarchy of boxes over triangles and instances, and the walk.
 //!
 //! `obvhs` builds binary hierarchies; ours are collapsed from them into nodes of eight children
-//! ([`collapse`]), tested at once ([`kernel`]), with leaves of up to four packs of four triangles.
+//! (`collapse`), tested at once (`kernel`), with leaves of up to four packs of four triangles.
 //! Triangles are tested by the signs of Plücker products about the ray (as Embree's robust mode
 //! does), which are exactly opposite for the two triangles of an edge: no ray slips between.
 

@@ -1,8 +1,8 @@
 //! The path tracer: stages over a batch of paths.
 //!
 //! A thread drives [`worker::BATCH`] paths through the same stages that a GPU runs as
-//! kernels: [generate](Frame::start_path), [traverse](worker), [shade](shade) (footprint,
-//! look-up, evaluation, closures, light samples), [shadows](direct), [film](crate::film).
+//! kernels: generate, traverse, shade (footprint, look-up, evaluation, closures, light
+//! samples), shadows, [film](crate::film).
 //! Finished paths are replaced at once, so that the batch stays full.
 
 mod direct;
