@@ -87,8 +87,8 @@ class Trees(SceneTest):
         ramp = entry["ramp"]
         self.assertEqual(ramp["interpolation"], "B_SPLINE")
         np.testing.assert_allclose([stop[0] for stop in ramp["stops"]], [0, 0.3, 1], rtol=1e-6)
-        table = np.array(ramp["table"]).reshape(256, 4)
-        np.testing.assert_allclose(table[77], node.color_ramp.evaluate(77 / 255), rtol=1e-6)
+        table = np.array(ramp["table"]).reshape(257, 4)
+        np.testing.assert_allclose(table[77], node.color_ramp.evaluate(77 / 256), rtol=1e-6)
 
     def test_combined_curve_is_applied_first(self):
         tree, color = self.surface()
