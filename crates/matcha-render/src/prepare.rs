@@ -182,11 +182,8 @@ fn check_indices(scene: &Scene) -> Result<(), RenderError> {
         };
         let slots = mesh.slots.iter().copied().max().unwrap_or(0);
         for slot in 0..=usize::from(slots) {
-            let given = instance
-                .materials
-                .get(slot)
-                .or_else(|| mesh.material_slots.get(slot));
-            let exists = given.is_some_and(|&m| (m as usize) < count);
+            let given = mesh.material_of_slot(instance, slot);
+            let exists = given.is_some_and(|m| (m as usize) < count);
             if !(exists || mesh.indices.is_empty()) {
                 return Err(RenderError::Scene(format!(
                     "object \"{}\": slot {slot} of mesh \"{}\" has no material",
@@ -348,11 +345,8 @@ fn transparent_instances(scene: &Scene, programs: &[Program]) -> Vec<bool> {
         let mesh = &scene.meshes[instance.mesh as usize];
         let slots = mesh.material_slots.len().max(instance.materials.len());
         (0..slots).any(|slot| {
-            let material = instance
-                .materials
-                .get(slot)
-                .or_else(|| mesh.material_slots.get(slot));
-            material.is_some_and(|&m| transparent.get(m as usize) == Some(&true))
+            let material = mesh.material_of_slot(instance, slot);
+            material.is_some_and(|m| transparent.get(m as usize) == Some(&true))
         })
     };
     scene.instances.iter().map(shows).collect()

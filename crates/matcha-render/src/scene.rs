@@ -73,6 +73,11 @@ impl Mesh {
             .slots
             .get(triangle as usize)
             .map_or(0, |&slot| usize::from(slot));
+        self.material_of_slot(instance, slot)
+    }
+
+    /// Material of a slot: the instance's where it replaces the mesh's.
+    pub fn material_of_slot(&self, instance: &Instance, slot: usize) -> Option<u32> {
         instance
             .materials
             .get(slot)

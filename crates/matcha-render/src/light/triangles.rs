@@ -79,7 +79,7 @@ impl Triangles {
             let Some(mesh) = scene.meshes.get(instance.mesh as usize) else {
                 continue;
             };
-            let shines = |slot| sampled(scene, emission, material_of(mesh, instance, slot));
+            let shines = |slot| sampled(scene, emission, mesh.material_of_slot(instance, slot));
             let slots = mesh
                 .material_slots
                 .len()
@@ -109,7 +109,7 @@ impl Triangles {
                     return None;
                 }
                 let corners = corners(mesh, primitive, &instance.transform)?;
-                let material = material_of(mesh, instance, slot)?;
+                let material = mesh.material_of_slot(instance, slot)?;
                 Some(EmissiveTriangle {
                     corners,
                     instance: index,
@@ -175,14 +175,6 @@ pub fn bounds(triangle: &EmissiveTriangle, emission: &MaterialEmission) -> Light
         power: radiance * area,
         two_sided: emission.sides == Sides::Both,
     }
-}
-
-fn material_of(mesh: &Mesh, instance: &Instance, slot: usize) -> Option<u32> {
-    instance
-        .materials
-        .get(slot)
-        .or_else(|| mesh.material_slots.get(slot))
-        .copied()
 }
 
 fn sampled(scene: &Scene, emission: &[Option<MaterialEmission>], material: Option<u32>) -> bool {

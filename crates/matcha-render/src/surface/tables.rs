@@ -176,15 +176,7 @@ fn layers_of_attributes(mesh: &Mesh, names: usize) -> Vec<u16> {
 pub fn material_of(scene: &Scene, instance: u32, triangle: u32) -> Option<u32> {
     let instance = scene.instances.get(instance as usize)?;
     let mesh = scene.meshes.get(instance.mesh as usize)?;
-    let slot = mesh
-        .slots
-        .get(triangle as usize)
-        .map_or(0, |&slot| slot as usize);
-    instance
-        .materials
-        .get(slot)
-        .or_else(|| mesh.material_slots.get(slot))
-        .copied()
+    mesh.material_of(instance, triangle)
 }
 
 /// Unit length, or `fallback` where there is none.
