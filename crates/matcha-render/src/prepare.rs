@@ -5,6 +5,7 @@ use crate::backend::RenderError;
 use crate::camera;
 use crate::device::camera::RasterCamera;
 use crate::emission;
+use crate::integrator::path::{PathSettings, path_settings};
 use crate::light::LightSet;
 use crate::scene::{Scene, Shader};
 use crate::surface::{SurfaceTables, View};
@@ -40,6 +41,7 @@ pub struct Prepared {
     pub(crate) surfaces: SurfaceTables,
     pub(crate) view: View,
     pub(crate) camera: RasterCamera,
+    pub(crate) rules: PathSettings,
 }
 
 impl Prepared {
@@ -87,6 +89,7 @@ impl Prepared {
             surfaces,
             view,
             camera,
+            rules: path_settings(&scene.settings),
             scene,
         };
         let emission = emission::of_materials(&prepared);

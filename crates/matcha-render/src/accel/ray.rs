@@ -8,18 +8,21 @@ pub const NOTHING: u32 = u32::MAX;
 
 /// Which kind of ray it is, one bit each, for the visibility of instances.
 pub mod ray_kind {
+    use crate::device::path_ray::{
+        RAY_CAMERA, RAY_DIFFUSE, RAY_GLOSSY, RAY_SHADOW, RAY_TRANSMISSION, RAY_TRANSPARENT_SHADOW,
+    };
     /// From the camera.
-    pub const CAMERA: u8 = 1;
+    pub const CAMERA: u8 = RAY_CAMERA as u8;
     /// Scattered by a diffuse closure.
-    pub const DIFFUSE: u8 = 2;
+    pub const DIFFUSE: u8 = RAY_DIFFUSE as u8;
     /// Scattered by a glossy closure.
-    pub const GLOSSY: u8 = 4;
+    pub const GLOSSY: u8 = RAY_GLOSSY as u8;
     /// Transmitted.
-    pub const TRANSMISSION: u8 = 8;
+    pub const TRANSMISSION: u8 = RAY_TRANSMISSION as u8;
     /// Towards a light.
-    pub const SHADOW: u8 = 16;
+    pub const SHADOW: u8 = RAY_SHADOW as u8;
     /// Towards a light, through surfaces that may let it pass.
-    pub const TRANSPARENT_SHADOW: u8 = 32;
+    pub const TRANSPARENT_SHADOW: u8 = RAY_TRANSPARENT_SHADOW as u8;
     /// Sees everything that is not wholly invisible.
     pub const ALL: u8 = 63;
 }
@@ -87,32 +90,4 @@ pub struct Hit {
     pub v: f32,
 }
 
-/// Moves a point off a surface so far that rounding cannot leave it on the wrong side, and no farther.
-///
-/// `normal` is the geometric normal, `direction` the ray that starts here: the side it goes to is
-/// where the point moves. Wächter and Binder 2019, "A fast and robust method for avoiding
-/// self-intersection" (Ray Tracing Gems, chapter 6): offsets in units in the last place,
-/// with a fixed length near the origin.
-pub fn offset_origin(point: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
-    const NEAR_ORIGIN: f32 = 1.0 / 32.0;
-    const FIXED: f32 = 1.0 / 65536.0;
-    const ULPS: f32 = 256.0;
-    let side = if normal.dot(direction) < 0.0 {
-        -normal
-    } else {
-        normal
-    };
-    let axis = |p: f32, n: f32| {
-        if p.abs() < NEAR_ORIGIN {
-            return p + FIXED * n;
-        }
-        let ulps = (ULPS * n) as i32;
-        let bits = p.to_bits() as i32;
-        f32::from_bits(bits.wrapping_add(if p < 0.0 { -ulps } else { ulps }) as u32)
-    };
-    Vec3::new(
-        axis(point.x, side.x),
-        axis(point.y, side.y),
-        axis(point.z, side.z),
-    )
-}
+pub use crate::device::path_ray::ray_offset_origin as offset_origin;

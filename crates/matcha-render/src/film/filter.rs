@@ -1,8 +1,8 @@
 //! Filter importance sampling: a sample's place in its pixel is drawn with the pixel
 //! filter's density (Ernst, Stamminger and Greiner 2006), so that every sample weighs one.
 
+use crate::device::path_start::FilterView;
 use crate::scene::PixelFilter;
-use glam::Vec2;
 use std::f64::consts::TAU;
 
 /// Intervals of the inverse table.
@@ -51,20 +51,11 @@ impl FilterTable {
         }
     }
 
-    /// Offset from the pixel's centre, in pixels, for `u` in [0, 1)².
-    #[inline]
-    pub fn offset(&self, u: Vec2) -> Vec2 {
-        Vec2::new(self.look_up(u.x), self.look_up(u.y))
-    }
-
-    #[inline]
-    fn look_up(&self, u: f32) -> f32 {
-        let centred = 2.0 * u.clamp(0.0, 1.0) - 1.0;
-        let share = 1.0 - centred.abs();
-        let x = share.sqrt().sqrt() * INTERVALS as f32;
-        let i = (x as usize).min(INTERVALS - 1);
-        let (a, b) = (self.inverse[i], self.inverse[i + 1]);
-        (a + (b - a) * (x - i as f32)).copysign(centred)
+    /// The table, as device code reads it.
+    pub fn view(&self) -> FilterView<'_> {
+        FilterView {
+            inverse: &self.inverse,
+        }
     }
 }
 
@@ -93,6 +84,7 @@ fn weight(filter: PixelFilter, x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::device::path_start::filter_offset;
 
     /// Mean and variance of the sampled offsets, against the filter integrated directly.
     fn check_moments(filter: PixelFilter) {
@@ -100,7 +92,7 @@ mod tests {
         let n = 100_000;
         let (mut mean, mut second) = (0.0, 0.0);
         for i in 0..n {
-            let x = f64::from(table.look_up((i as f32 + 0.5) / n as f32));
+            let x = f64::from(filter_offset(table.view(), (i as f32 + 0.5) / n as f32));
             mean += x / f64::from(n);
             second += x * x / f64::from(n);
         }
@@ -132,7 +124,7 @@ mod tests {
         let (bins, n) = (30, 300_000);
         let mut counts = vec![0.0; bins];
         for i in 0..n {
-            let x = table.look_up((i as f32 + 0.5) / n as f32);
+            let x = filter_offset(table.view(), (i as f32 + 0.5) / n as f32);
             counts[((x / 3.0 + 0.5) * bins as f32).clamp(0.0, bins as f32 - 1.0) as usize] += 1.0;
         }
         let fine = 1000;
@@ -158,7 +150,9 @@ mod tests {
         ] {
             let table = FilterTable::new(filter);
             for u in [0.0, 0.25, 0.999_999, 1.0, 2.0, -1.0] {
-                assert!(f64::from(table.look_up(u).abs()) <= half_width(filter) + 1e-6);
+                assert!(
+                    f64::from(filter_offset(table.view(), u).abs()) <= half_width(filter) + 1e-6
+                );
             }
         }
     }

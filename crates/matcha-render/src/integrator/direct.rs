@@ -1,7 +1,7 @@
 //! The shadow stage: radiance of sampled lights, and what stands in between.
 
 use super::Frame;
-use super::path::clamp_contribution;
+use super::path::path_clamped;
 use super::worker::{Emitter, LightTask, SurfaceTask, Worker};
 use crate::accel::{Hit, Ray, ray_kind};
 use glam::Vec3;
@@ -21,7 +21,7 @@ impl Worker {
         }
         for task in tasks.drain(..) {
             let path = &mut self.paths[task.path as usize];
-            path.radiance += clamp_contribution(task.value, task.bounce, frame.settings());
+            path.radiance += path_clamped(task.value, task.bounce, frame.rules());
         }
         self.light_tasks = tasks;
     }

@@ -14,9 +14,9 @@ pub mod worker;
 
 pub use networks::Networks;
 
-use crate::accel::{Hit, NOTHING, Ray, ray_kind};
-use crate::camera::pixel_ray;
-use crate::device::sobol::sobol_pixel_seed;
+use crate::accel::{Hit, Ray};
+use crate::device::path_start::path_start;
+use crate::device::path_step::path_ray_mask;
 use crate::film::{PixelSums, Tile, filter::FilterTable};
 use crate::light::RayKind;
 use crate::prepare::Prepared;
@@ -25,7 +25,7 @@ use crate::surface::PathInfo;
 use glam::Vec3;
 use matcha_cache::Table;
 use matcha_shade::program::Program;
-use path::{Path, flags, power_heuristic};
+use path::{Path, PathSettings, flags};
 
 /// The material cache as a frame uses it.
 #[derive(Clone, Copy)]
@@ -84,45 +84,16 @@ impl Frame<'_> {
         path.ray_kind().sees(&self.scene().world.visibility)
     }
 
+    /// What the rules of paths ask of the settings.
+    pub(crate) fn rules(&self) -> PathSettings {
+        self.prepared.rules
+    }
+
     /// A path from the camera through a pixel of a tile.
     pub(crate) fn start_path(&self, tile: &Tile, pixel: u32, index: u32) -> Path {
         let [x, y] = tile.pixel(pixel);
-        let seed = sobol_pixel_seed(x, y, self.seed);
-        let offset = self
-            .filter
-            .offset(sample::camera(seed, index, sample::FILTER));
-        let lens = sample::camera(seed, index, sample::LENS);
-        let ray = pixel_ray(&self.prepared.camera, [x, y], offset, lens);
-        Path {
-            pixel,
-            sample: index,
-            seed,
-            dimension: sample::FIRST_SURFACE,
-            origin: ray.origin,
-            direction: ray.direction,
-            t_min: ray.t_min,
-            t_max: ray.t_max,
-            leaves: [NOTHING; 2],
-            throughput: Vec3::ONE,
-            radiance: Vec3::ZERO,
-            alpha: 1.0,
-            flags: flags::CAMERA,
-            bounce: 0,
-            diffuse: 0,
-            glossy: 0,
-            transmission: 0,
-            transparent: 0,
-            scatter_pdf: f32::INFINITY,
-            min_pdf: f32::INFINITY,
-            mis_origin: ray.origin,
-            mis_normal: Vec3::ZERO,
-            cone_width: ray.cone_width,
-            cone_spread: ray.cone_spread,
-            nodes_found: 0.0,
-            albedo: Vec3::ZERO,
-            normal: Vec3::ZERO,
-            depth: -1.0,
-        }
+        let filter = self.filter.view();
+        path_start(self.prepared.camera, filter, self.seed, x, y, pixel, index)
     }
 }
 
@@ -134,7 +105,7 @@ impl Path {
             direction: self.direction,
             t_min: self.t_min,
             t_max: self.t_max,
-            mask: self.ray_mask(),
+            mask: path_ray_mask(self.flags) as u8,
             excluded: self.leaves,
         }
     }
@@ -152,15 +123,6 @@ impl Path {
         }
     }
 
-    fn ray_mask(&self) -> u8 {
-        match self.ray_kind() {
-            RayKind::Camera => ray_kind::CAMERA,
-            RayKind::Transmission => ray_kind::TRANSMISSION,
-            RayKind::Diffuse => ray_kind::DIFFUSE,
-            RayKind::Glossy => ray_kind::GLOSSY,
-        }
-    }
-
     /// What networks may know of the path whose last segment has a length (metres).
     pub(crate) fn info(&self, ray_length: f32) -> PathInfo {
         PathInfo {
@@ -169,28 +131,12 @@ impl Path {
             cone_width: self.cone_width,
             cone_spread: self.cone_spread,
             ray_length,
-            bounce: self.bounce,
-            diffuse: self.diffuse,
-            glossy: self.glossy,
-            transmission: self.transmission,
-            transparent: self.transparent,
+            bounce: self.bounce as u16,
+            diffuse: self.diffuse as u16,
+            glossy: self.glossy as u16,
+            transmission: self.transmission as u16,
+            transparent: self.transparent as u16,
         }
-    }
-
-    /// Weight of light that the ray meets, which next-event estimation finds with density
-    /// `pdf` too: all of it where nothing was sampled at the ray's origin.
-    pub(crate) fn weight_against(&self, pdf: f32) -> f32 {
-        if self.flags & (flags::CAMERA | flags::SINGULAR) != 0 {
-            1.0
-        } else {
-            power_heuristic(self.scatter_pdf, pdf)
-        }
-    }
-
-    /// Bounces as the clamps count them for light that the ray meets: seen directly or
-    /// after one bounce is direct.
-    pub(crate) fn light_bounce(&self) -> u32 {
-        u32::from(self.bounce).saturating_sub(1)
     }
 
     /// Adds the finished path to its pixel.

@@ -2,11 +2,16 @@
 //! lights and directions sampled.
 
 use super::Frame;
-use super::path::{Path, ScatterKind, clamp_contribution, flags, power_heuristic};
-use super::sample::{self, Draw};
+use super::path::{Path, ScatterKind, flags, path_power_heuristic};
+use super::sample;
 use super::worker::{Emitter, LightTask, SurfaceTask, Worker};
-use crate::accel::{Hit, Ray, offset_origin, ray_kind};
+use crate::accel::{Hit, Ray, ray_kind};
 use crate::closure::{ClosureContext, LobeSet, Scattered, flags as scatter};
+use crate::device::path_ray::{ShadowStart, ray_to_light};
+use crate::device::path_state::{path_add_met, path_blur_roughness};
+use crate::device::path_step::{
+    PathTurn, path_hold_out, path_keep_small, path_note_features, path_pass_through, path_scatter,
+};
 use crate::light::{Emission, LightSample};
 use crate::surface::SurfacePoint;
 use crate::surface::cone::spread_after_scattering;
@@ -47,12 +52,12 @@ impl Worker {
 }
 
 fn closure_context(frame: &Frame, path: &Path) -> ClosureContext {
-    let settings = frame.settings();
+    let settings = frame.rules();
     let caustic = path.flags & flags::DIFFUSE != 0;
     ClosureContext {
-        blur: path.blur_roughness(settings),
-        reflective_caustics: settings.reflective_caustics || !caustic,
-        refractive_caustics: settings.refractive_caustics || !caustic,
+        blur: path_blur_roughness(path.min_pdf, settings.blur_glossy),
+        reflective_caustics: settings.reflective_caustics != 0 || !caustic,
+        refractive_caustics: settings.refractive_caustics != 0 || !caustic,
         // A path that ends here may still go on through transparent surfaces.
         scatter: path.flags & flags::TERMINATE == 0,
     }
@@ -68,19 +73,18 @@ fn shade_hit(
     lights: &mut Vec<LightTask>,
 ) -> bool {
     add_surface_emission(frame, path, task, lobes);
-    let holdout = lobes.holdout.element_sum() / 3.0;
-    if holdout > 0.0 || frame.is_holdout(&task.hit) {
-        let cut = if frame.is_holdout(&task.hit) {
-            1.0
-        } else {
-            holdout.min(1.0)
-        };
-        path.alpha -= path.throughput.element_sum() / 3.0 * cut;
-        if cut >= 1.0 {
-            return false;
-        }
+    let held_out = if frame.is_holdout(&task.hit) {
+        1.0
+    } else {
+        lobes.holdout.element_sum() / 3.0
+    };
+    if path_hold_out(path, held_out) {
+        return false;
     }
-    note_features(path, lobes, task.hit.t);
+    if path.flags & flags::FEATURES_DONE == 0 {
+        let (albedo, normal) = (lobes.albedo(), lobes.normal());
+        path_note_features(path, albedo, normal, lobes.transparency, task.hit.t);
+    }
     if !lobes.has_bsdf() {
         return false;
     }
@@ -91,7 +95,7 @@ fn shade_hit(
     if lobes.has_eval() {
         sample_light(frame, path, task, point, lobes, lights);
     }
-    match lobes.sample(sample::three(path, Draw::Scatter)) {
+    match lobes.sample(sample::scatter(path)) {
         None => false,
         Some(next) if next.flags & scatter::TRANSPARENT != 0 => {
             pass_through(frame, path, task, next.weight)
@@ -113,21 +117,7 @@ fn add_surface_emission(frame: &Frame, path: &mut Path, task: &SurfaceTask, lobe
         path.direction,
         task.hit.t,
     );
-    let weight = path.weight_against(density);
-    let light = path.throughput * lobes.emission * weight;
-    path.radiance += clamp_contribution(light, path.light_bounce(), frame.settings());
-}
-
-/// Albedo, normal and depth of the first surface that is more than half opaque.
-fn note_features(path: &mut Path, lobes: &LobeSet, distance: f32) {
-    let transparent = lobes.transparency.element_sum() > 1.5;
-    if path.flags & flags::FEATURES_DONE != 0 || transparent {
-        return;
-    }
-    path.flags |= flags::FEATURES_DONE;
-    path.albedo = lobes.albedo();
-    path.normal = lobes.normal();
-    path.depth = distance;
+    path_add_met(path, lobes.emission, density, frame.rules());
 }
 
 fn sample_light(
@@ -138,7 +128,7 @@ fn sample_light(
     lobes: &LobeSet,
     tasks: &mut Vec<LightTask>,
 ) {
-    let draw = sample::three(path, Draw::Light);
+    let draw = sample::light(path);
     let normal = selection_normal(point, lobes);
     let Some(light) = frame
         .prepared
@@ -147,7 +137,7 @@ fn sample_light(
     else {
         return;
     };
-    if u32::from(path.bounce) > light.max_bounces || !is_lit_by(path, &light) {
+    if path.bounce > light.max_bounces || !is_lit_by(path, &light) {
         return;
     }
     let scattered = lobes.eval(light.wi);
@@ -155,7 +145,7 @@ fn sample_light(
         return;
     }
     let weight = if light.mis {
-        power_heuristic(light.pdf, scattered.pdf)
+        path_power_heuristic(light.pdf, scattered.pdf)
     } else {
         1.0
     };
@@ -163,10 +153,7 @@ fn sample_light(
     let emitter = match light.radiance {
         Emission::Constant(radiance) => {
             value *= radiance;
-            let Some(factor) = keep_small(frame, path, value) else {
-                return;
-            };
-            value *= factor;
+            value *= path_keep_small(path, value, frame.rules().light_threshold);
             Emitter::Known
         }
         Emission::Triangle {
@@ -190,23 +177,11 @@ fn sample_light(
             value,
             ray: shadow_ray(point, task, &light),
             casts_shadow: light.cast_shadow,
-            bounce: u32::from(path.bounce),
-            transparent: frame.settings().transparent_bounces,
+            bounce: path.bounce,
+            transparent: frame.rules().transparent_bounces,
             emitter,
         });
     }
-}
-
-/// Cycles' light threshold: a contribution below it is kept with a probability in
-/// proportion to it. Returns the factor that makes up for the dropped ones.
-fn keep_small(frame: &Frame, path: &Path, value: Vec3) -> Option<f32> {
-    let threshold = frame.settings().light_threshold;
-    let size = value.abs().max_element();
-    if size >= threshold {
-        return Some(1.0);
-    }
-    let keep = size / threshold;
-    (sample::one(path, Draw::LightKeep) < keep).then(|| 1.0 / keep)
 }
 
 /// The normal that light selection may rely on: none where light may also come from behind.
@@ -220,41 +195,20 @@ fn selection_normal(point: &SurfacePoint, lobes: &LobeSet) -> Vec3 {
 
 /// The ray to a sampled light; it stops short of the light's own surface.
 fn shadow_ray(point: &SurfacePoint, task: &SurfaceTask, light: &LightSample) -> Ray {
-    let start = point
-        .position
-        .lerp(point.shadow_origin, terminator_lift(point, light.wi));
-    let origin = offset_origin(start, point.true_normal, light.wi);
-    let (direction, t_max) = if light.distance.is_finite() {
-        let to_light = light.point - origin;
-        (
-            to_light.normalize_or(light.wi),
-            to_light.length() * (1.0 - 1e-4),
-        )
-    } else {
-        (light.wi, f32::INFINITY)
+    let start = ShadowStart {
+        position: point.position,
+        shadow_origin: point.shadow_origin,
+        normal: point.normal,
+        true_normal: point.true_normal,
     };
-    let excluded = [task.hit.instance, task.hit.primitive];
+    let segment = ray_to_light(start, light.wi, light.point, !light.distance.is_finite());
     Ray {
-        origin,
-        direction,
+        origin: segment.origin,
+        direction: segment.direction,
         t_min: 0.0,
-        t_max,
+        t_max: segment.t_max,
         mask: ray_kind::SHADOW,
-        excluded,
-    }
-}
-
-/// Share of the way to the smooth surface that a shadow ray starts at: all of it where light
-/// grazes the facet, nothing where it comes from well above, since lifting everywhere would
-/// carry rays through thin objects (Cycles' shadow terminator offset, 0.1 by default).
-fn terminator_lift(point: &SurfacePoint, wi: Vec3) -> f32 {
-    const GRAZING: f32 = 0.1;
-    let above_smooth = wi.dot(point.normal) > 0.0;
-    let cosine = wi.dot(point.true_normal);
-    if above_smooth {
-        (1.0 - cosine / GRAZING).clamp(0.0, 1.0)
-    } else {
-        0.0
+        excluded: [task.hit.instance, task.hit.primitive],
     }
 }
 
@@ -272,47 +226,28 @@ fn scatter_on(
     lobes: &LobeSet,
     next: &Scattered,
 ) -> bool {
-    path.throughput *= next.weight;
     let kind = ScatterKind {
         diffuse: next.flags & scatter::DIFFUSE != 0,
         singular: next.flags & scatter::SINGULAR != 0,
         transmit: next.flags & scatter::TRANSMIT != 0,
     };
-    path.count_bounce(kind, frame.settings());
-    path.mis_origin = point.position;
-    path.mis_normal = selection_normal(point, lobes);
-    path.scatter_pdf = next.pdf;
-    if !kind.singular {
-        path.min_pdf = path.min_pdf.min(next.pdf);
-    }
-    path.origin = offset_origin(point.position, point.true_normal, next.wi);
-    path.direction = next.wi;
-    path.t_min = 0.0;
-    path.t_max = f32::INFINITY;
-    path.leaves = [task.hit.instance, task.hit.primitive];
-    path.cone_width = point.cone_width;
     let alpha = next.roughness * next.roughness;
-    path.cone_spread = spread_after_scattering(path.cone_spread, alpha, kind.diffuse);
-    survives(path)
-}
-
-/// Russian roulette; also ends paths that carry nothing.
-fn survives(path: &mut Path) -> bool {
-    if !path.throughput.is_finite() || path.throughput.max_element() <= 0.0 {
-        return false;
-    }
-    let survival = path.survival();
-    let lives = survival >= 1.0 || sample::one(path, Draw::Roulette) < survival;
-    path.throughput /= survival;
-    path.dimension += sample::PER_SURFACE;
-    lives
+    let turn = PathTurn {
+        position: point.position,
+        true_normal: point.true_normal,
+        selection_normal: selection_normal(point, lobes),
+        cone_width: point.cone_width,
+        cone_spread: spread_after_scattering(path.cone_spread, alpha, kind.diffuse),
+        leaves: [task.hit.instance, task.hit.primitive],
+        wi: next.wi,
+        pdf: next.pdf,
+        kind,
+    };
+    path_scatter(path, next.weight, turn, frame.rules())
 }
 
 /// Sends the path straight through; false where it ends.
 fn pass_through(frame: &Frame, path: &mut Path, task: &SurfaceTask, weight: Vec3) -> bool {
-    path.throughput *= weight;
-    path.t_min = task.hit.t;
-    path.leaves = [task.hit.instance, task.hit.primitive];
-    path.dimension += sample::PER_SURFACE;
-    path.count_transparent(frame.settings()) && path.throughput.max_element() > 0.0
+    let leaves = [task.hit.instance, task.hit.primitive];
+    path_pass_through(path, weight, leaves, task.hit.t, frame.rules())
 }

@@ -2,9 +2,10 @@
 
 use super::Frame;
 use super::networks::Networks;
-use super::path::{Path, clamp_contribution, flags};
+use super::path::{Path, flags};
 use crate::accel::{Hit, Ray};
 use crate::closure::LobeSet;
+use crate::device::path_state::{path_add_met, path_uncover};
 use crate::film::{PixelSums, Tile};
 use crate::light::{Emission, LightHit};
 use glam::Vec3;
@@ -249,18 +250,16 @@ fn add_light(
     hit: &LightHit,
     distance: f32,
 ) {
-    if u32::from(path.bounce) > hit.max_bounces {
+    if path.bounce > hit.max_bounces {
         return;
     }
-    let weight = path.weight_against(hit.pdf);
     let radiance = networks.light_radiance(frame, &hit.radiance, path.direction, distance);
-    let light = path.throughput * radiance * weight;
-    path.radiance += clamp_contribution(light, path.light_bounce(), frame.settings());
+    path_add_met(path, radiance, hit.pdf, frame.rules());
 }
 
 fn add_world(frame: &Frame, networks: &mut Networks, path: &mut Path, radiance: Vec3) {
     if path.flags & flags::CAMERA != 0 && frame.settings().transparent_film {
-        path.alpha -= path.throughput.element_sum() / 3.0;
+        path_uncover(path, 1.0);
         return;
     }
     let lights = &frame.prepared.lights;
@@ -269,8 +268,11 @@ fn add_world(frame: &Frame, networks: &mut Networks, path: &mut Path, radiance: 
         add_light(frame, networks, path, &sun, f32::INFINITY);
     }
     if frame.world_is_seen_by(path) {
-        let weight = path.weight_against(lights.pdf_world(p, n, direction));
-        let light = path.throughput * radiance * weight;
-        path.radiance += clamp_contribution(light, path.light_bounce(), frame.settings());
+        path_add_met(
+            path,
+            radiance,
+            lights.pdf_world(p, n, direction),
+            frame.rules(),
+        );
     }
 }
