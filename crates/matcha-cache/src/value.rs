@@ -1,27 +1,29 @@
 //! How a value of some type is laid into words of the table.
 
 use crate::device::encoding::*;
-use glam::{Vec2, Vec3};
+use crate::device::value as device;
+use glam::Vec3;
 
 /// Meaning of a cacheable node's value, which decides its encoding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u32)]
 pub enum ValueKind {
     /// A number, exact; 1 component.
-    Scalar,
+    Scalar = device::VALUE_SCALAR,
     /// A gradient in UV; 2 components.
-    Pair,
+    Pair = device::VALUE_PAIR,
     /// Linear colour without negative channels; 3.
-    Color,
+    Color = device::VALUE_COLOR,
     /// Colour with alpha; 4, in two words.
-    ColorAlpha,
+    ColorAlpha = device::VALUE_COLOR_ALPHA,
     /// Vector with signs; 3.
-    Vector,
+    Vector = device::VALUE_VECTOR,
     /// Unit normal; 3.
-    Normal,
+    Normal = device::VALUE_NORMAL,
     /// Texture coordinates, which bear no rounding: exact, one word each; 2.
-    Coordinates2,
+    Coordinates2 = device::VALUE_COORDINATES_2,
     /// Likewise; 3.
-    Coordinates3,
+    Coordinates3 = device::VALUE_COORDINATES_3,
 }
 
 /// Most words that a value takes.
@@ -41,53 +43,24 @@ impl ValueKind {
     /// Number of words, each an entry of its own (see `part` of
     /// [`node_seed`](crate::node_seed)). All must be found for the value to be.
     pub fn words(self) -> usize {
-        match self {
-            ValueKind::ColorAlpha | ValueKind::Coordinates2 => 2,
-            ValueKind::Coordinates3 => 3,
-            _ => 1,
-        }
+        device::value_words(self.code()) as usize
+    }
+
+    /// What device code calls it.
+    pub fn code(self) -> u32 {
+        self as u32
     }
 
     /// The value in words; `None` where the encoding cannot hold it, and then it must
     /// not be stored. Components beyond the width are ignored.
-    pub fn encode(self, [x, y, z, w]: [f32; 4]) -> Option<[u32; MOST_WORDS]> {
-        let v = Vec3::new(x, y, z);
-        match self {
-            ValueKind::Scalar => scalar_fits(x).then(|| [encode_scalar(x), 0, 0]),
-            ValueKind::Pair => pair_fits(v.truncate()).then(|| [encode_pair(v.truncate()), 0, 0]),
-            ValueKind::Color => color_fits(v).then(|| [encode_color(v), 0, 0]),
-            ValueKind::ColorAlpha => {
-                (color_fits(v) && scalar_fits(w)).then(|| [encode_color(v), encode_scalar(w), 0])
-            }
-            ValueKind::Vector => vector_fits(v).then(|| [encode_vector(v), 0, 0]),
-            ValueKind::Normal => normal_fits(v).then(|| [encode_normal(v), 0, 0]),
-            ValueKind::Coordinates2 => {
-                (scalar_fits(x) && scalar_fits(y)).then(|| [encode_scalar(x), encode_scalar(y), 0])
-            }
-            ValueKind::Coordinates3 => [x, y, z]
-                .into_iter()
-                .all(scalar_fits)
-                .then(|| [encode_scalar(x), encode_scalar(y), encode_scalar(z)]),
-        }
+    pub fn encode(self, value: [f32; 4]) -> Option<[u32; MOST_WORDS]> {
+        let encoded = device::value_encode(self.code(), value);
+        encoded.fits.then_some(encoded.words)
     }
 
     /// The value from its words; components beyond the width are 0.
     pub fn decode(self, words: [u32; MOST_WORDS]) -> [f32; 4] {
-        let three = |v: Vec3| [v.x, v.y, v.z, 0.0];
-        let two = |v: Vec2| [v.x, v.y, 0.0, 0.0];
-        match self {
-            ValueKind::Scalar => [decode_scalar(words[0]), 0.0, 0.0, 0.0],
-            ValueKind::Pair => two(decode_pair(words[0])),
-            ValueKind::Color => three(decode_color(words[0])),
-            ValueKind::ColorAlpha => {
-                let color = decode_color(words[0]);
-                [color.x, color.y, color.z, decode_scalar(words[1])]
-            }
-            ValueKind::Vector => three(decode_vector(words[0])),
-            ValueKind::Normal => three(decode_normal(words[0])),
-            ValueKind::Coordinates2 => [decode_scalar(words[0]), decode_scalar(words[1]), 0.0, 0.0],
-            ValueKind::Coordinates3 => three(Vec3::from_array(words.map(decode_scalar))),
-        }
+        device::value_decode(self.code(), words)
     }
 
     /// One component of many values: `words[p]` holds part `p` of each, `out` takes the

@@ -8,6 +8,7 @@ pub mod hash;
 pub mod math;
 pub mod pattern;
 pub mod perlin;
+pub mod ramp;
 pub mod scalar;
 pub mod shading;
 pub mod texel;

@@ -4,3 +4,4 @@
 pub mod encoding;
 pub mod intrinsics;
 pub mod key_hash;
+pub mod value;

@@ -1,42 +1,29 @@
 //! Ramps and curves: look-ups in tables of samples over [0, 1].
 
-use crate::device::math::{clamp, to_int};
+use crate::device::ramp::{ramp_mix, ramp_place};
 use crate::graph::Table;
-
-/// The samples to read and how to mix them: `(1 − t)·row[i] + t·row[i + 1]`.
-#[inline(always)]
-fn position(table: &Table, last: usize, x: f32) -> (usize, f32) {
-    let limited = if table.extrapolate {
-        x
-    } else {
-        clamp(x, 0.0, 1.0)
-    };
-    let f = limited * last as f32;
-    let floor = clamp(f, 0.0, (last - table.interpolate as usize) as f32);
-    let i = to_int(floor) as usize;
-    let t = if table.interpolate { f - i as f32 } else { 0.0 };
-    (i, t)
-}
 
 /// Looks `N` points up, one row of results for each row of the table.
 #[inline(always)]
 pub(crate) fn look_up<const N: usize>(table: &Table, x: &[f32; N]) -> [[f32; N]; 4] {
-    let last = table.rows[0].len() - 1;
-    let mut at = [0usize; N];
+    let last = table.rows[0].len() as u32 - 1;
+    let mut at = [[0usize; N]; 2];
     let mut t = [0.0f32; N];
     for lane in 0..N {
-        (at[lane], t[lane]) = position(table, last, x[lane]);
+        let place = ramp_place(last, table.interpolate, table.extrapolate, x[lane]);
+        at[0][lane] = place.first as usize;
+        at[1][lane] = place.second as usize;
+        t[lane] = place.t;
     }
     let mut out = [[0.0f32; N]; 4];
     for (row, out) in table.rows.iter().zip(&mut out) {
         let (mut a, mut b) = ([0.0f32; N], [0.0f32; N]);
         for lane in 0..N {
-            a[lane] = row[at[lane]];
-            b[lane] = row[(at[lane] + 1).min(last)];
+            a[lane] = row[at[0][lane]];
+            b[lane] = row[at[1][lane]];
         }
         for lane in 0..N {
-            let mixed = (1.0 - t[lane]) * a[lane] + t[lane] * b[lane];
-            out[lane] = if table.interpolate { mixed } else { a[lane] };
+            out[lane] = ramp_mix(a[lane], b[lane], t[lane], table.interpolate);
         }
     }
     out
