@@ -260,7 +260,7 @@ fn terminator_lift(point: &SurfacePoint, wi: Vec3) -> f32 {
 
 /// Whether the light's ray visibility includes surfaces that the path reached like this one.
 fn is_lit_by(path: &Path, light: &LightSample) -> bool {
-    path.flags & flags::CAMERA != 0 || path.ray_kind().sees(&light.visibility)
+    path.flags & flags::CAMERA != 0 || path.ray_kind().bit() & light.visibility != 0
 }
 
 /// Sends the path in a sampled direction; false where it ends.
