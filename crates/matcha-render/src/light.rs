@@ -1,9 +1,9 @@
 //! Lights: a list of everything that shines, and next-event estimation over it.
 //!
 //! Local lights (emissive triangles, points, spots, areas) hang in one light tree. Suns and
-//! the world have shares of their own beside it. A share is half the same for everyone that
-//! can reach the point, half in proportion to the irradiance that is estimated to arrive:
-//! the estimates of a tree's root and of a sun differ too much in kind to trust them alone.
+//! the world have shares of their own beside it. Everything that happens while rendering is
+//! device code over a [`LightView`]: `light_sample` and what it calls. This module collects
+//! the lights of a scene, and calls that code for the processor.
 //!
 //! All densities are over solid angle and include the choice of the light. Every density
 //! that a `pdf_` function gives is the one with which [`LightSet::sample`] samples, computed
@@ -19,19 +19,27 @@ mod triangles;
 mod visible;
 mod world;
 
-pub use self::tree::{LightNode, LightTree, Link};
-pub use self::triangles::{EmissiveTriangle, MaterialEmission, Sides, Triangles};
+pub use self::tree::{LightTree, Link};
+pub use self::triangles::{MaterialEmission, Sides, Triangles};
 pub use self::visible::{LightHit, RayKind};
 pub use self::world::{WorldGrid, WorldMap, WorldRadiance, grid_direction, luminance};
+pub use crate::device::light_view::{EmissiveTriangle, LightNode, LightOf, LightView};
 
-use self::escape::{Distant, Share};
+use self::escape::Distant;
 use self::visible::LightBvh;
-use crate::device::light_analytic::{
-    AnalyticLight, LIGHT_FAR, light_attenuation, light_direction_sample,
+use crate::accel::visibility_mask;
+use crate::device::light_analytic::LIGHT_FAR;
+use crate::device::light_importance::LightBounds;
+use crate::device::light_pdf::{
+    LightMet, light_met, light_pdf_triangle, light_pdf_world, light_sun_met,
 };
-use crate::device::light_triangle::light_triangle_pdf;
-use crate::device::light_triangle::light_triangle_sample;
-use crate::scene::{Scene, Visibility};
+use crate::device::light_sample::{
+    LIGHT_EMITS_CONSTANT, LIGHT_EMITS_NOTHING, LIGHT_EMITS_SURFACE, LIGHT_EMITS_TREE,
+    LIGHT_IS_ANALYTIC, LIGHT_IS_NONE, LIGHT_IS_TRIANGLE, LightDraw, LightEmission, light_sample,
+};
+use crate::device::light_view::{LIGHT_NONE, LightMaterial};
+use crate::device::light_visible::light_nearest;
+use crate::scene::Scene;
 use glam::{Vec2, Vec3};
 
 /// Names a light.
@@ -43,25 +51,6 @@ pub enum LightId {
     Analytic(u32),
     /// The world.
     World,
-}
-
-/// An analytic light with what the integrator must know of it.
-#[derive(Clone, Copy, Debug)]
-pub struct LightOf {
-    /// Index into `Scene::lights`.
-    pub scene_light: u32,
-    /// Node tree that multiplies the radiance: index into `Scene::trees`.
-    pub tree: Option<u32>,
-    /// Blocked by objects.
-    pub cast_shadow: bool,
-    /// Combined with BSDF samples; otherwise only next-event estimation finds it.
-    pub mis: bool,
-    /// Who sees it.
-    pub visibility: Visibility,
-    /// Bounces after which it still counts.
-    pub max_bounces: u32,
-    /// Geometry and radiance.
-    pub shape: AnalyticLight,
 }
 
 /// Radiance of a light sample, W·sr⁻¹·m⁻².
@@ -85,8 +74,6 @@ pub enum Emission {
     Tree {
         /// Index into [`LightSet::analytic`].
         light: u32,
-        /// Index into `Scene::trees`.
-        tree: u32,
         /// Radiance that the tree's emission multiplies.
         factor: Vec3,
     },
@@ -115,20 +102,79 @@ pub struct LightSample {
     pub cast_shadow: bool,
     /// Weigh against BSDF samples; if false the sample counts whole.
     pub mis: bool,
-    /// Which closures see it.
-    pub visibility: Visibility,
+    /// Which closures see it: bits of [`crate::device::ray_kind`].
+    pub visibility: u32,
     /// Bounces after which it still counts.
     pub max_bounces: u32,
+}
+
+impl LightSample {
+    /// From what device code drew; `None` where there is nothing to try.
+    fn new(draw: &LightDraw) -> Option<Self> {
+        let light = match draw.kind {
+            LIGHT_IS_NONE => return None,
+            LIGHT_IS_TRIANGLE => LightId::Triangle(draw.index),
+            LIGHT_IS_ANALYTIC => LightId::Analytic(draw.index),
+            _ => LightId::World,
+        };
+        let radiance = match draw.emission.kind {
+            LIGHT_EMITS_SURFACE => Emission::Triangle {
+                instance: draw.instance,
+                primitive: draw.primitive,
+                u: draw.uv.x,
+                v: draw.uv.y,
+            },
+            _ => Emission::new(&draw.emission, draw.index),
+        };
+        let far = draw.distance >= LIGHT_FAR;
+        Some(Self {
+            light,
+            wi: draw.wi,
+            distance: if far { f32::INFINITY } else { draw.distance },
+            point: draw.point,
+            normal: draw.normal,
+            pdf: draw.pdf,
+            radiance,
+            cast_shadow: draw.cast_shadow,
+            mis: draw.mis,
+            visibility: draw.visibility,
+            max_bounces: draw.max_bounces,
+        })
+    }
+}
+
+impl Emission {
+    /// Of an analytic light or the world.
+    fn new(emission: &LightEmission, light: u32) -> Self {
+        match emission.kind {
+            LIGHT_EMITS_CONSTANT => Self::Constant(emission.radiance),
+            LIGHT_EMITS_TREE => Self::Tree {
+                light,
+                factor: emission.radiance,
+            },
+            _ => Self::World,
+        }
+    }
+}
+
+impl LightHit {
+    fn new(met: &LightMet) -> Option<Self> {
+        (met.emission.kind != LIGHT_EMITS_NOTHING).then(|| Self {
+            light: LightId::Analytic(met.index),
+            radiance: Emission::new(&met.emission, met.index),
+            pdf: met.pdf,
+            max_bounces: met.max_bounces,
+        })
+    }
 }
 
 /// Everything that shines.
 #[derive(Clone, Debug, Default)]
 pub struct LightSet {
     triangles: Triangles,
-    emission: Vec<Option<MaterialEmission>>,
+    materials: Vec<LightMaterial>,
     analytic: Vec<LightOf>,
     tree: LightTree,
-    /// Analytic lights of the tree, by emitter less the number of triangles.
     local: Vec<u32>,
     distant: Distant,
     bvh: LightBvh,
@@ -142,7 +188,7 @@ impl LightSet {
         emission: Vec<Option<MaterialEmission>>,
         world: Option<WorldRadiance>,
     ) -> Self {
-        let analytic: Vec<LightOf> = scene
+        let mut analytic: Vec<LightOf> = scene
             .lights
             .iter()
             .zip(0..)
@@ -150,35 +196,46 @@ impl LightSet {
             .collect();
         let limit = tree::MAX_EMITTERS - analytic.len().min(tree::MAX_EMITTERS);
         let triangles = Triangles::collect(scene, &emission, limit);
-        let (suns, local): (Vec<u32>, Vec<u32>) =
-            (0..analytic.len() as u32).partition(|&i| escape::is_sun(&analytic[i as usize].shape));
-        let mut bounds: Vec<_> = triangles
-            .list
-            .iter()
-            .filter_map(|t| {
-                Some(triangles::bounds(
-                    t,
-                    emission[t.material as usize].as_ref()?,
-                ))
-            })
-            .collect();
-        bounds.extend(
-            local
-                .iter()
-                .map(|&i| analytic::bounds(&analytic[i as usize].shape)),
-        );
-        let tree = LightTree::build(&bounds);
+        let (suns, local): (Vec<u32>, Vec<u32>) = (0..analytic.len() as u32)
+            .partition(|&i| analytic::is_sun(&analytic[i as usize].shape));
+        for (&sun, place) in suns.iter().zip(0..) {
+            analytic[sun as usize].place = place;
+        }
+        for (&light, emitter) in local.iter().zip(triangles.list.len() as u32..) {
+            analytic[light as usize].place = emitter;
+        }
+        let bounds = local_bounds(&triangles, &emission, &analytic, &local);
         let world = world.filter(|_| scene.world.importance_sample);
-        let distant = Distant::new(&analytic, suns, world, scene.world.visibility);
-        let bvh = LightBvh::build(&analytic);
+        let sees_world = u32::from(visibility_mask(&scene.world.visibility));
         Self {
+            tree: LightTree::build(&bounds),
+            distant: Distant::new(&analytic, &suns, world, sees_world),
+            bvh: LightBvh::build(&analytic),
+            materials: emission.iter().map(MaterialEmission::stored).collect(),
             triangles,
-            emission,
             analytic,
-            tree,
             local,
-            distant,
-            bvh,
+        }
+    }
+
+    /// The lights as device code reads them.
+    #[inline(always)]
+    pub fn view(&self) -> LightView<'_> {
+        let [tree, triangles, bvh] = [self.tree.view(), self.triangles.view(), self.bvh.view()];
+        LightView {
+            nodes: tree.nodes,
+            parents: tree.parents,
+            slots: tree.slots,
+            root: tree.root,
+            triangles: triangles.triangles,
+            first: triangles.first,
+            of_primitive: triangles.of_primitive,
+            boxes: bvh.boxes,
+            order: bvh.order,
+            materials: &self.materials,
+            lights: &self.analytic,
+            local: &self.local,
+            ..self.distant.view()
         }
     }
 
@@ -199,141 +256,18 @@ impl LightSet {
 
     /// Bytes in memory.
     pub fn bytes(&self) -> usize {
-        self.triangles.bytes() + self.tree.bytes() + self.distant.bytes()
+        self.triangles.bytes()
+            + self.tree.bytes()
+            + self.distant.bytes()
+            + self.bvh.bytes()
+            + size_of_val(&self.materials[..])
+            + size_of_val(&self.analytic[..])
+            + size_of_val(&self.local[..])
     }
 
     /// Samples a light and a direction to it. `u_select` and `u` are in [0, 1).
     pub fn sample(&self, p: Vec3, n: Vec3, u_select: f32, u: Vec2) -> Option<LightSample> {
-        let shares = self.shares(p, n);
-        let (share, rest) = shares.choose(u_select)?;
-        match share {
-            Share::Tree => self.sample_tree(p, n, rest, u, shares.tree),
-            Share::World => self.distant.sample_world(n, u, shares.world),
-            Share::Sun => {
-                let (sun, probability) = self.distant.choose_sun(n, rest)?;
-                self.sample_analytic(sun, p, n, u, shares.suns * probability)
-            }
-        }
-    }
-
-    fn shares(&self, p: Vec3, n: Vec3) -> escape::Shares {
-        if self.distant.is_empty() {
-            return escape::Shares {
-                tree: 1.0,
-                ..Default::default()
-            };
-        }
-        let tree = if self.tree.is_empty() {
-            0.0
-        } else {
-            self.tree.importance(p, n)
-        };
-        self.distant.shares(tree, n)
-    }
-
-    fn sample_tree(
-        &self,
-        p: Vec3,
-        n: Vec3,
-        select: f32,
-        u: Vec2,
-        share: f32,
-    ) -> Option<LightSample> {
-        let (emitter, probability) = self.tree.sample(p, n, select)?;
-        let chosen = share * probability;
-        match self.triangles.list.get(emitter as usize) {
-            Some(_) => self.sample_triangle(emitter, p, u, chosen),
-            None => {
-                let light = *self
-                    .local
-                    .get(emitter as usize - self.triangles.list.len())?;
-                self.sample_analytic(light, p, n, u, chosen)
-            }
-        }
-    }
-
-    fn sample_triangle(&self, emitter: u32, p: Vec3, u: Vec2, chosen: f32) -> Option<LightSample> {
-        let triangle = &self.triangles.list[emitter as usize];
-        let emission = self.emission[triangle.material as usize].as_ref()?;
-        let sampled = light_triangle_sample(triangle.corners, p, u);
-        let c = &triangle.corners;
-        let point = c.a + (c.b - c.a) * sampled.uv.x + (c.c - c.a) * sampled.uv.y;
-        let distance = (point - p).length();
-        let wi = (point - p) / distance;
-        let normal = triangle.normal();
-        if !(sampled.pdf > 0.0 && distance > 0.0 && shines(emission.sides, normal, wi)) {
-            return None;
-        }
-        let radiance = if emission.constant {
-            Emission::Constant(emission.radiance)
-        } else {
-            Emission::Triangle {
-                instance: triangle.instance,
-                primitive: triangle.primitive,
-                u: sampled.uv.x,
-                v: sampled.uv.y,
-            }
-        };
-        Some(LightSample {
-            light: LightId::Triangle(emitter),
-            wi,
-            distance,
-            point,
-            normal,
-            pdf: sampled.pdf * chosen,
-            radiance,
-            cast_shadow: true,
-            mis: true,
-            visibility: Visibility::default(),
-            max_bounces: u32::MAX,
-        })
-    }
-
-    fn sample_analytic(
-        &self,
-        index: u32,
-        p: Vec3,
-        n: Vec3,
-        u: Vec2,
-        chosen: f32,
-    ) -> Option<LightSample> {
-        let light = &self.analytic[index as usize];
-        let sampled = light_direction_sample(light.shape, p, n, u);
-        if !(sampled.pdf > 0.0 && sampled.distance > 0.0) {
-            return None;
-        }
-        Some(LightSample {
-            light: LightId::Analytic(index),
-            wi: sampled.direction,
-            distance: if sampled.distance < LIGHT_FAR {
-                sampled.distance
-            } else {
-                f32::INFINITY
-            },
-            point: sampled.point,
-            normal: sampled.normal,
-            pdf: sampled.pdf * chosen,
-            radiance: self.radiance(index, p, sampled.direction)?,
-            cast_shadow: light.cast_shadow,
-            mis: light.mis,
-            visibility: light.visibility,
-            max_bounces: light.max_bounces,
-        })
-    }
-
-    /// What an analytic light radiates towards `p` from the direction `wi`; `None`: nothing.
-    fn radiance(&self, index: u32, p: Vec3, wi: Vec3) -> Option<Emission> {
-        let light = &self.analytic[index as usize];
-        let attenuation = light_attenuation(light.shape, p, wi);
-        let factor = light.shape.radiance * attenuation;
-        (attenuation > 0.0).then_some(match light.tree {
-            Some(tree) => Emission::Tree {
-                light: index,
-                tree,
-                factor,
-            },
-            None => Emission::Constant(factor),
-        })
+        LightSample::new(&light_sample(self.view(), p, n, u_select, u))
     }
 
     /// Density with which `sample` finds a point of a triangle that a ray from `p` in the unit
@@ -348,46 +282,69 @@ impl LightSet {
         wi: Vec3,
         distance: f32,
     ) -> f32 {
-        let Some(emitter) = self.triangles.find(instance, primitive) else {
-            return 0.0;
-        };
-        let triangle = &self.triangles.list[emitter as usize];
-        let Some(emission) = &self.emission[triangle.material as usize] else {
-            return 0.0;
-        };
-        if !shines(emission.sides, triangle.normal(), wi) {
-            return 0.0;
-        }
-        let chosen = self.shares(p, n).tree * self.tree.probability(emitter, p, n);
-        chosen * light_triangle_pdf(triangle.corners, p, wi, distance)
+        light_pdf_triangle(self.view(), instance, primitive, p, n, wi, distance)
     }
 
     /// Density with which `sample` finds the world in the unit direction `wi`.
     pub fn pdf_world(&self, p: Vec3, n: Vec3, wi: Vec3) -> f32 {
-        self.shares(p, n).world * self.distant.pdf_world(n, wi)
+        light_pdf_world(self.view(), p, n, wi)
     }
 
-    /// Probability with which `sample` chooses an analytic light.
-    fn probability_analytic(&self, index: u32, p: Vec3, n: Vec3) -> f32 {
-        let shares = self.shares(p, n);
-        if escape::is_sun(&self.analytic[index as usize].shape) {
-            return shares.suns * self.distant.probability_sun(index, n);
-        }
-        let Ok(local) = self.local.binary_search(&index) else {
-            return 0.0;
-        };
-        let emitter = self.triangles.list.len() + local;
-        shares.tree * self.tree.probability(emitter as u32, p, n)
+    /// Nearest visible analytic light between `t_min` and `t_max` on a ray with a unit
+    /// direction, and its distance. Suns are not among them ([`LightSet::escaped`]).
+    pub fn intersect(
+        &self,
+        origin: Vec3,
+        direction: Vec3,
+        t_min: f32,
+        t_max: f32,
+        kind: RayKind,
+    ) -> Option<(u32, f32)> {
+        let nearest = light_nearest(self.view(), origin, direction, t_min, t_max, kind.bit());
+        (nearest.index != LIGHT_NONE).then_some((nearest.index, nearest.distance))
+    }
+
+    /// True where no ray can meet an analytic light, so that `intersect` need not be asked.
+    pub fn nothing_to_meet(&self) -> bool {
+        self.bvh.is_empty()
+    }
+
+    /// Radiance and density of a light that `intersect` found. `p` and `n` belong to the last
+    /// scattering and `distance` counts from there.
+    pub fn hit(&self, index: u32, p: Vec3, n: Vec3, wi: Vec3, distance: f32) -> Option<LightHit> {
+        LightHit::new(&light_met(self.view(), index, p, n, wi, distance))
+    }
+
+    /// Suns that a ray sees that left the scene in the unit direction `wi`. `p` and `n` belong
+    /// to the last scattering. The world is the caller's: [`LightSet::pdf_world`].
+    pub fn escaped(
+        &self,
+        p: Vec3,
+        n: Vec3,
+        wi: Vec3,
+        kind: RayKind,
+    ) -> impl Iterator<Item = LightHit> {
+        (0..self.distant.suns()).filter_map(move |k| {
+            LightHit::new(&light_sun_met(self.view(), k, p, n, wi, kind.bit()))
+        })
     }
 }
 
-/// True where a triangle with the given front normal shines against the direction `wi`.
-fn shines(sides: Sides, normal: Vec3, wi: Vec3) -> bool {
-    match sides {
-        Sides::Both => true,
-        Sides::Front => normal.dot(wi) < 0.0,
-        Sides::Back => normal.dot(wi) > 0.0,
-    }
+/// Bounds of the emitters of the light tree in their order.
+fn local_bounds(
+    triangles: &Triangles,
+    emission: &[Option<MaterialEmission>],
+    analytic: &[LightOf],
+    local: &[u32],
+) -> Vec<LightBounds> {
+    let of_triangles = triangles.list.iter().filter_map(|t| {
+        let emission = emission[t.material() as usize].as_ref()?;
+        Some(triangles::bounds(t, emission))
+    });
+    let of_lights = local
+        .iter()
+        .map(|&i| analytic::bounds(&analytic[i as usize].shape));
+    of_triangles.chain(of_lights).collect()
 }
 
 #[cfg(test)]

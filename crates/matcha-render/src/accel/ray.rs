@@ -8,23 +8,22 @@ pub const NOTHING: u32 = u32::MAX;
 
 /// Which kind of ray it is, one bit each, for the visibility of instances.
 pub mod ray_kind {
-    use crate::device::path_ray::{
-        RAY_CAMERA, RAY_DIFFUSE, RAY_GLOSSY, RAY_SHADOW, RAY_TRANSMISSION, RAY_TRANSPARENT_SHADOW,
-    };
+    use crate::device::ray_kind as device;
+
     /// From the camera.
-    pub const CAMERA: u8 = RAY_CAMERA as u8;
+    pub const CAMERA: u8 = device::RAY_CAMERA as u8;
     /// Scattered by a diffuse closure.
-    pub const DIFFUSE: u8 = RAY_DIFFUSE as u8;
+    pub const DIFFUSE: u8 = device::RAY_DIFFUSE as u8;
     /// Scattered by a glossy closure.
-    pub const GLOSSY: u8 = RAY_GLOSSY as u8;
+    pub const GLOSSY: u8 = device::RAY_GLOSSY as u8;
     /// Transmitted.
-    pub const TRANSMISSION: u8 = RAY_TRANSMISSION as u8;
+    pub const TRANSMISSION: u8 = device::RAY_TRANSMISSION as u8;
     /// Towards a light.
-    pub const SHADOW: u8 = RAY_SHADOW as u8;
+    pub const SHADOW: u8 = device::RAY_SHADOW as u8;
     /// Towards a light, through surfaces that may let it pass.
-    pub const TRANSPARENT_SHADOW: u8 = RAY_TRANSPARENT_SHADOW as u8;
+    pub const TRANSPARENT_SHADOW: u8 = device::RAY_TRANSPARENT_SHADOW as u8;
     /// Sees everything that is not wholly invisible.
-    pub const ALL: u8 = 63;
+    pub const ALL: u8 = device::RAY_ALL as u8;
 }
 
 /// The bits of the kinds of rays that see something.

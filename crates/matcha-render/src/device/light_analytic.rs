@@ -37,7 +37,8 @@ pub const LIGHT_SHARP_SUN: u32 = 6;
 pub const LIGHT_FAR: f32 = f32::MAX;
 
 /// An analytic light, ready to be sampled.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
 pub struct AnalyticLight {
     /// One of the `LIGHT_` kinds.
     pub kind: u32,
@@ -55,8 +56,8 @@ pub struct AnalyticLight {
     pub tan_half_spread: f32,
     /// Cycles' normalisation of the spread: 1 / (tan h − h) with h half of the spread.
     pub spread_scale: f32,
-    /// True for a spot.
-    pub spot: bool,
+    /// 1 for a spot.
+    pub spot: u32,
     /// Rows of the inverse of the spot's linear transform: world to the light's space.
     pub to_local_x: Vec3,
     /// Second row.
@@ -104,8 +105,8 @@ pub fn light_no_direction() -> LightDirection {
 /// cone of a spot (Cycles: a smoothstep in the cosine), the grid of an area light's spread
 /// (Cycles: the part of a slit that its walls do not hide), 1 for others.
 #[inline]
-pub fn light_attenuation(light: AnalyticLight, p: Vec3, direction: Vec3) -> f32 {
-    if light.spot {
+pub fn light_attenuation(light: &AnalyticLight, p: Vec3, direction: Vec3) -> f32 {
+    if light.spot != 0 {
         let from = p - light.center;
         if light.kind == LIGHT_SPHERE && dot(from, from) <= light.radius * light.radius {
             return 1.0;
@@ -131,7 +132,7 @@ pub fn light_attenuation(light: AnalyticLight, p: Vec3, direction: Vec3) -> f32 
 /// Samples a direction from `p` towards the light. `n` is the unit normal at `p`, or zero
 /// where light may come from both sides (used inside of spheres only).
 #[inline]
-pub fn light_direction_sample(light: AnalyticLight, p: Vec3, n: Vec3, u: Vec2) -> LightDirection {
+pub fn light_direction_sample(light: &AnalyticLight, p: Vec3, n: Vec3, u: Vec2) -> LightDirection {
     if light.kind == LIGHT_RECTANGLE || light.kind == LIGHT_ELLIPSE {
         return light_area_sample(light, p, u);
     }
@@ -148,7 +149,7 @@ pub fn light_direction_sample(light: AnalyticLight, p: Vec3, n: Vec3, u: Vec2) -
 /// `direction`, which is known to meet the light at `distance`.
 #[inline]
 pub fn light_direction_pdf(
-    light: AnalyticLight,
+    light: &AnalyticLight,
     p: Vec3,
     n: Vec3,
     direction: Vec3,
@@ -179,7 +180,7 @@ pub fn light_cone_pdf(one_minus_cos: f32) -> f32 {
 
 /// Samples a sun.
 #[inline]
-pub fn light_sun_sample(light: AnalyticLight, u: Vec2) -> LightDirection {
+pub fn light_sun_sample(light: &AnalyticLight, u: Vec2) -> LightDirection {
     let mut direction = -light.axes.z;
     let mut pdf = 1.0;
     if light.kind == LIGHT_SUN {
@@ -199,7 +200,7 @@ pub fn light_sun_sample(light: AnalyticLight, u: Vec2) -> LightDirection {
 
 /// Samples a disc that faces `p`, or a point.
 #[inline]
-pub fn light_disc_sample(light: AnalyticLight, p: Vec3, u: Vec2) -> LightDirection {
+pub fn light_disc_sample(light: &AnalyticLight, p: Vec3, u: Vec2) -> LightDirection {
     let to = light.center - p;
     let d2 = dot(to, to);
     if d2 < 1e-20 {
@@ -230,14 +231,14 @@ pub fn light_sphere_cap(radius: f32, d2: f32) -> f32 {
 
 /// True where a spot's beam is narrower than its sphere looks, so that the beam is sampled.
 #[inline(always)]
-pub fn light_samples_beam(light: AnalyticLight, cap: f32) -> bool {
-    light.spot && light.one_minus_cos < cap
+pub fn light_samples_beam(light: &AnalyticLight, cap: f32) -> bool {
+    light.spot != 0 && light.one_minus_cos < cap
 }
 
 /// Samples a sphere: outside, the visible cap by solid angle (or a spot's beam where that is
 /// smaller); inside, all directions by the cosine, or uniformly where `n` is zero.
 #[inline]
-pub fn light_sphere_sample(light: AnalyticLight, p: Vec3, n: Vec3, u: Vec2) -> LightDirection {
+pub fn light_sphere_sample(light: &AnalyticLight, p: Vec3, n: Vec3, u: Vec2) -> LightDirection {
     let to = light.center - p;
     let d2 = dot(to, to);
     let outside = d2 > light.radius * light.radius;
@@ -276,7 +277,7 @@ pub fn light_sphere_sample(light: AnalyticLight, p: Vec3, n: Vec3, u: Vec2) -> L
 
 /// Density of [`light_sphere_sample`] in a direction that meets the sphere.
 #[inline]
-pub fn light_sphere_pdf(light: AnalyticLight, p: Vec3, n: Vec3, direction: Vec3) -> f32 {
+pub fn light_sphere_pdf(light: &AnalyticLight, p: Vec3, n: Vec3, direction: Vec3) -> f32 {
     let to = light.center - p;
     let d2 = dot(to, to);
     if d2 > light.radius * light.radius {
@@ -297,7 +298,7 @@ pub fn light_sphere_pdf(light: AnalyticLight, p: Vec3, n: Vec3, direction: Vec3)
 /// Distance at which a ray meets the sphere: its near side from outside, its far side from
 /// inside; negative where it misses.
 #[inline]
-pub fn light_sphere_distance(light: AnalyticLight, p: Vec3, direction: Vec3) -> f32 {
+pub fn light_sphere_distance(light: &AnalyticLight, p: Vec3, direction: Vec3) -> f32 {
     let to = light.center - p;
     let along = dot(to, direction);
     // Squared distance of the ray's line from the centre, without cancellation.
@@ -322,7 +323,7 @@ pub struct LightRegion {
 
 /// See [`LightRegion`].
 #[inline]
-pub fn light_area_region(light: AnalyticLight, p: Vec3) -> LightRegion {
+pub fn light_area_region(light: &AnalyticLight, p: Vec3) -> LightRegion {
     let mut patch = LightPatch {
         center: light.center,
         axes: light.axes,
@@ -371,7 +372,7 @@ pub fn light_area_region(light: AnalyticLight, p: Vec3) -> LightRegion {
 
 /// True where a point of the light's plane, in its axes from its centre, belongs to it.
 #[inline(always)]
-pub fn light_area_contains(light: AnalyticLight, at: Vec2) -> bool {
+pub fn light_area_contains(light: &AnalyticLight, at: Vec2) -> bool {
     let x = 2.0 * at.x / light.size.x;
     let y = 2.0 * at.y / light.size.y;
     let rim = 1.000_001;
@@ -382,7 +383,7 @@ pub fn light_area_contains(light: AnalyticLight, at: Vec2) -> bool {
 
 /// Samples an area light: rectangles by solid angle, ellipses by area.
 #[inline]
-pub fn light_area_sample(light: AnalyticLight, p: Vec3, u: Vec2) -> LightDirection {
+pub fn light_area_sample(light: &AnalyticLight, p: Vec3, u: Vec2) -> LightDirection {
     let region = light_area_region(light, p);
     let height = dot(p - light.center, light.axes.z);
     if height <= 0.0 || region.kind == LIGHT_POINT {
@@ -442,7 +443,7 @@ pub fn light_region_pdf(
 /// Density of [`light_area_sample`] in a direction that meets the light at `distance`.
 #[inline]
 pub fn light_area_direction_pdf(
-    light: AnalyticLight,
+    light: &AnalyticLight,
     p: Vec3,
     direction: Vec3,
     distance: f32,
@@ -465,7 +466,7 @@ pub fn light_area_direction_pdf(
 /// extent and suns are never met. Area lights are met from their shining side only; discs
 /// face the ray's origin.
 #[inline]
-pub fn light_distance(light: AnalyticLight, p: Vec3, direction: Vec3) -> f32 {
+pub fn light_distance(light: &AnalyticLight, p: Vec3, direction: Vec3) -> f32 {
     if light.kind == LIGHT_SPHERE {
         return light_sphere_distance(light, p, direction);
     }
@@ -491,7 +492,7 @@ pub fn light_distance(light: AnalyticLight, p: Vec3, direction: Vec3) -> f32 {
 
 /// True where a unit direction points into a sun's disc.
 #[inline(always)]
-pub fn light_sun_contains(light: AnalyticLight, direction: Vec3) -> bool {
+pub fn light_sun_contains(light: &AnalyticLight, direction: Vec3) -> bool {
     // Half of the squared chord is 1 − cosine, without cancellation.
     let chord = direction + light.axes.z;
     light.kind == LIGHT_SUN && 0.5 * dot(chord, chord) <= light.one_minus_cos

@@ -11,7 +11,8 @@ use matcha_shade::device::math::{
 pub const LIGHT_TRIANGLE_NEAR: f32 = 0.5;
 
 /// Corners of a triangle in world space, metres.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
 pub struct LightTriangle {
     /// Corner of the barycentric coordinates (0, 0).
     pub a: Vec3,

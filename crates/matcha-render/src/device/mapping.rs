@@ -5,7 +5,8 @@ use glam::{Vec2, Vec3};
 use matcha_shade::device::math::{PI, cos, max, select, sin, sqrt, vec2, vec3};
 
 /// Right-handed frame around a unit vector.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
 pub struct MappingFrame {
     /// First tangent.
     pub x: Vec3,

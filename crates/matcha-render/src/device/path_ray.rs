@@ -6,19 +6,6 @@ use matcha_shade::device::math::{
     wrapping_add, wrapping_sub,
 };
 
-/// Ray from the camera. The `RAY_` bits say which instances a ray sees.
-pub const RAY_CAMERA: u32 = 1;
-/// Ray scattered by a diffuse closure.
-pub const RAY_DIFFUSE: u32 = 2;
-/// Ray scattered by a glossy closure.
-pub const RAY_GLOSSY: u32 = 4;
-/// Transmitted ray.
-pub const RAY_TRANSMISSION: u32 = 8;
-/// Ray towards a light.
-pub const RAY_SHADOW: u32 = 16;
-/// Ray towards a light, through surfaces that may let it pass.
-pub const RAY_TRANSPARENT_SHADOW: u32 = 32;
-
 /// Near the world's origin, in this distance of an axis, offsets have a fixed length.
 pub const RAY_NEAR_ORIGIN: f32 = 0.03125;
 /// That length, as a fraction of the normal.

@@ -214,7 +214,7 @@ fn shadow_ray(point: &SurfacePoint, task: &SurfaceTask, light: &LightSample) -> 
 
 /// Whether the light's ray visibility includes surfaces that the path reached like this one.
 fn is_lit_by(path: &Path, light: &LightSample) -> bool {
-    path.flags & flags::CAMERA != 0 || path.ray_kind().sees(&light.visibility)
+    path.flags & flags::CAMERA != 0 || path.ray_kind().bit() & light.visibility != 0
 }
 
 /// Sends the path in a sampled direction; false where it ends.

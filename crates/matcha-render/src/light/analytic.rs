@@ -5,13 +5,14 @@
 //! E / (π sin² h) with half angle h; without `normalize` the area is left out. A point
 //! without radius has the intensity P / 4π, with or without `normalize`'s area of 4 m².
 
-use super::LightOf;
 use super::world::luminance;
+use crate::accel::visibility_mask;
 use crate::device::light_analytic::{
     AnalyticLight, LIGHT_DISC, LIGHT_ELLIPSE, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SHARP_SUN,
     LIGHT_SPHERE, LIGHT_SUN,
 };
 use crate::device::light_importance::LightBounds;
+use crate::device::light_view::{LIGHT_CASTS_SHADOW, LIGHT_IS_MET, LIGHT_NONE, LightOf};
 use crate::device::mapping::MappingFrame;
 use crate::scene::{Light, LightShape};
 use glam::{Mat3, Vec2, Vec3};
@@ -21,7 +22,13 @@ use std::f32::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI};
 /// has no density that BSDF samples could meet.
 const LEAST_SPREAD: f32 = 2e-3;
 
-/// Converts a light; `None` where it cannot shine: black, without area, or not finite.
+/// True for lights at infinity.
+pub fn is_sun(light: &AnalyticLight) -> bool {
+    light.kind == LIGHT_SUN || light.kind == LIGHT_SHARP_SUN
+}
+
+/// Converts a light; `None` where it cannot shine: black, without area, or not finite. Its
+/// place among its like is still to be set.
 pub fn convert(light: &Light, index: u32) -> Option<LightOf> {
     let matrix = Mat3::from(light.transform.matrix3);
     let center: Vec3 = light.transform.translation.into();
@@ -39,7 +46,7 @@ pub fn convert(light: &Light, index: u32) -> Option<LightOf> {
         radiance: Vec3::ZERO,
         tan_half_spread: 0.0,
         spread_scale: 0.0,
-        spot: false,
+        spot: 0,
         to_local_x: Vec3::X,
         to_local_y: Vec3::Y,
         to_local_z: Vec3::Z,
@@ -75,13 +82,28 @@ pub fn convert(light: &Light, index: u32) -> Option<LightOf> {
     let power = shape.radiance.abs().max_element();
     (sane && power > 0.0).then_some(LightOf {
         scene_light: index,
-        tree: light.tree,
-        cast_shadow: light.cast_shadow,
-        mis: light.use_mis && !matches!(shape.kind, LIGHT_POINT | LIGHT_SHARP_SUN),
-        visibility: light.visibility,
+        tree: light.tree.unwrap_or(LIGHT_NONE),
+        flags: flags(light, &shape),
+        visibility: u32::from(visibility_mask(&light.visibility)),
         max_bounces: light.max_bounces,
+        place: LIGHT_NONE,
         shape,
     })
+}
+
+fn flags(light: &Light, shape: &AnalyticLight) -> u32 {
+    let has_extent = !matches!(shape.kind, LIGHT_POINT | LIGHT_SHARP_SUN);
+    let shadow = if light.cast_shadow {
+        LIGHT_CASTS_SHADOW
+    } else {
+        0
+    };
+    let met = if light.use_mis && has_extent {
+        LIGHT_IS_MET
+    } else {
+        0
+    };
+    shadow | met
 }
 
 /// Point light, or the body of a spot.
@@ -125,7 +147,7 @@ fn spot(ball: AnalyticLight, matrix: Mat3, angle: f32, blend: f32) -> Option<Ana
         tangent.atan()
     };
     Some(AnalyticLight {
-        spot: true,
+        spot: 1,
         to_local_x: rows.x_axis,
         to_local_y: rows.y_axis,
         to_local_z: rows.z_axis,
@@ -205,7 +227,7 @@ pub fn bounds(light: &AnalyticLight) -> LightBounds {
         Vec3::splat(light.radius)
     };
     // All of a ball shines to every side, a spot only around its axis.
-    let (cos_normals, cos_emission) = match (area_light, light.spot) {
+    let (cos_normals, cos_emission) = match (area_light, light.spot != 0) {
         (true, _) if light.tan_half_spread > 0.0 => (1.0, light.tan_half_spread.atan().cos()),
         (true, _) => (1.0, 0.0),
         (_, true) => (1.0, 1.0 - light.one_minus_cos),

@@ -8,7 +8,7 @@ mod world;
 
 use super::*;
 use crate::sampler::{sample_1d, sample_2d};
-use crate::scene::{Instance, Light, LightShape, Material, Mesh, Shader};
+use crate::scene::{Instance, Light, LightShape, Material, Mesh, Shader, Visibility};
 use glam::{Affine3A, Vec4};
 
 /// A light of `power` at a place, shining down by default.

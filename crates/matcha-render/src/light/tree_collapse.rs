@@ -1,12 +1,13 @@
 //! Turns the binary light tree into the wide one that is descended.
 
-use super::tree::{LightNode, Link, WIDTH};
+use super::tree::{Link, WIDTH};
 use super::tree_build::{BinaryLink, BinaryNode};
+use crate::device::light_view::LightNode;
 
 /// Wide nodes, root first. A wide node opens its child with the largest power times area
 /// until it is full: that is the child whose bounds say least about what is below.
 pub fn collapse(binary: &[BinaryNode]) -> Vec<LightNode> {
-    let mut nodes = vec![LightNode::EMPTY];
+    let mut nodes = vec![LightNode::empty()];
     // Wide node to fill, and the binary node that it stands for.
     let mut open = vec![(0usize, 0u32)];
     while let Some((index, from)) = open.pop() {
@@ -17,7 +18,7 @@ pub fn collapse(binary: &[BinaryNode]) -> Vec<LightNode> {
                 BinaryLink::Emitter(emitter) => Link::Emitter(emitter),
                 BinaryLink::Children(_) => {
                     let next = nodes.len();
-                    nodes.push(LightNode::EMPTY);
+                    nodes.push(LightNode::empty());
                     open.push((next, child));
                     Link::Node(next as u32)
                 }

@@ -2,8 +2,14 @@
 
 use super::world::luminance;
 use crate::device::light_importance::LightBounds;
+use crate::device::light_sample::light_triangle_normal;
 use crate::device::light_triangle::LightTriangle;
+use crate::device::light_view::{
+    EmissiveTriangle, LIGHT_BACK, LIGHT_FRONT, LIGHT_MIRRORED, LIGHT_NONE, LIGHT_UNIFORM,
+    LightMaterial, LightView,
+};
 use crate::scene::{Instance, Mesh, Scene};
+use bytemuck::Zeroable;
 use glam::{Affine3A, Vec3};
 use rayon::prelude::*;
 
@@ -30,43 +36,45 @@ pub struct MaterialEmission {
     pub sides: Sides,
 }
 
-/// A triangle that shines.
-#[derive(Clone, Copy, Debug)]
-pub struct EmissiveTriangle {
-    /// Corners in the world.
-    pub corners: LightTriangle,
-    /// Index into `Scene::instances`.
-    pub instance: u32,
-    /// Triangle of the instance's mesh.
-    pub primitive: u32,
-    /// Index into `Scene::materials`.
-    pub material: u32,
-    /// The instance mirrors its mesh, so that the front is where corners run clockwise.
-    pub mirrored: bool,
+impl MaterialEmission {
+    /// As the devices read it.
+    pub fn stored(emission: &Option<Self>) -> LightMaterial {
+        let Some(emission) = emission else {
+            return LightMaterial::zeroed();
+        };
+        let uniform = if emission.constant { LIGHT_UNIFORM } else { 0 };
+        let sides = match emission.sides {
+            Sides::Both => LIGHT_FRONT | LIGHT_BACK,
+            Sides::Front => LIGHT_FRONT,
+            Sides::Back => LIGHT_BACK,
+        };
+        LightMaterial {
+            radiance: emission.radiance,
+            flags: uniform | sides,
+        }
+    }
 }
 
 impl EmissiveTriangle {
     /// Unit normal of the front side.
-    #[inline]
     pub fn normal(&self) -> Vec3 {
-        let c = &self.corners;
-        let normal = (c.b - c.a).cross(c.c - c.a).normalize_or_zero();
-        if self.mirrored { -normal } else { normal }
+        light_triangle_normal(self.corners, self.surface)
+    }
+
+    /// Index into `Scene::materials`.
+    pub fn material(&self) -> u32 {
+        self.surface & !LIGHT_MIRRORED
     }
 }
 
-/// All emissive triangles with a way to find each.
+/// All emissive triangles with a way to find each; fields as in [`LightView`].
 #[derive(Clone, Debug, Default)]
 pub struct Triangles {
     /// The triangles; their index is their emitter in the light tree.
     pub list: Vec<EmissiveTriangle>,
-    /// For each instance the start of its entries in `of_primitive`; `NONE` without emission.
     first: Vec<u32>,
-    /// Emitter of each primitive of the instances with emission, or `NONE`.
     of_primitive: Vec<u32>,
 }
-
-const NONE: u32 = u32::MAX;
 
 impl Triangles {
     /// Collects the triangles of a scene; `emission` has an entry for each material.
@@ -75,7 +83,7 @@ impl Triangles {
     pub fn collect(scene: &Scene, emission: &[Option<MaterialEmission>], limit: usize) -> Self {
         let mut triangles = Self::default();
         for (instance, index) in scene.instances.iter().zip(0..) {
-            triangles.first.push(NONE);
+            triangles.first.push(LIGHT_NONE);
             let Some(mesh) = scene.meshes.get(instance.mesh as usize) else {
                 continue;
             };
@@ -100,7 +108,11 @@ impl Triangles {
         shines: &(impl Fn(usize) -> bool + Sync),
         limit: usize,
     ) {
-        let mirrored = instance.transform.matrix3.determinant() < 0.0;
+        let mirrored = if instance.transform.matrix3.determinant() < 0.0 {
+            LIGHT_MIRRORED
+        } else {
+            0
+        };
         let found: Vec<Option<EmissiveTriangle>> = (0..mesh.indices.len())
             .into_par_iter()
             .map(|primitive| {
@@ -114,8 +126,7 @@ impl Triangles {
                     corners,
                     instance: index,
                     primitive: primitive as u32,
-                    material,
-                    mirrored,
+                    surface: material | mirrored,
                 })
             })
             .collect();
@@ -130,21 +141,21 @@ impl Triangles {
             self.of_primitive.push(if triangle.is_some() && room {
                 self.list.len() as u32
             } else {
-                NONE
+                LIGHT_NONE
             });
             self.list.extend(triangle.filter(|_| room));
         }
     }
 
-    /// Emitter of a primitive of an instance.
-    #[inline]
-    pub fn find(&self, instance: u32, primitive: u32) -> Option<u32> {
-        let first = *self.first.get(instance as usize)?;
-        if first == NONE {
-            return None;
+    /// The triangles without the tree that they hang in.
+    #[inline(always)]
+    pub fn view(&self) -> LightView<'_> {
+        LightView {
+            triangles: &self.list,
+            first: &self.first,
+            of_primitive: &self.of_primitive,
+            ..LightView::default()
         }
-        let emitter = *self.of_primitive.get(first as usize + primitive as usize)?;
-        (emitter != NONE).then_some(emitter)
     }
 
     /// Bytes in memory.

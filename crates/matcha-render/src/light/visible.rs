@@ -1,14 +1,11 @@
-//! Lights that rays meet: analytic lights have a shape that some rays see.
-//!
-//! As in Cycles, lights do not block: a ray that meets one takes its radiance and goes on,
-//! so a caller asks again behind the hit. A camera ray sees each light that is visible to
-//! the camera; a scattered ray sees those that take part in multiple importance sampling.
+//! What rays are to lights, and the hierarchy over the lights that rays can meet.
 
-use super::analytic::bounds;
-use super::{Emission, LightId, LightOf, LightSet};
-use crate::device::light_analytic::{
-    LIGHT_POINT, light_direction_pdf, light_distance, light_sun_contains,
-};
+use super::analytic::{bounds, is_sun};
+use super::{Emission, LightId};
+use crate::accel::visibility_mask;
+use crate::device::light_analytic::LIGHT_POINT;
+use crate::device::light_view::{LightBox, LightOf, LightView};
+use crate::device::ray_kind::{RAY_CAMERA, RAY_DIFFUSE, RAY_GLOSSY, RAY_TRANSMISSION};
 use crate::scene::Visibility;
 use glam::Vec3;
 
@@ -26,14 +23,19 @@ pub enum RayKind {
 }
 
 impl RayKind {
+    /// Its `RAY_` bit.
+    pub fn bit(self) -> u32 {
+        match self {
+            Self::Camera => RAY_CAMERA,
+            Self::Diffuse => RAY_DIFFUSE,
+            Self::Glossy => RAY_GLOSSY,
+            Self::Transmission => RAY_TRANSMISSION,
+        }
+    }
+
     /// True where something of this visibility is seen by the ray.
     pub fn sees(self, visibility: &Visibility) -> bool {
-        match self {
-            Self::Camera => visibility.camera,
-            Self::Diffuse => visibility.diffuse,
-            Self::Glossy => visibility.glossy,
-            Self::Transmission => visibility.transmission,
-        }
+        u32::from(visibility_mask(visibility)) & self.bit() != 0
     }
 }
 
@@ -44,79 +46,11 @@ pub struct LightHit {
     pub light: LightId,
     /// Radiance towards the ray's origin.
     pub radiance: Emission,
-    /// Density with which [`LightSet::sample`] finds the direction from the point of the last
+    /// Density with which `LightSet::sample` finds the direction from the point of the last
     /// scattering, with the choice of the light.
     pub pdf: f32,
     /// Bounces after which the light still counts.
     pub max_bounces: u32,
-}
-
-fn sees(light: &LightOf, kind: RayKind) -> bool {
-    kind.sees(&light.visibility) && (kind == RayKind::Camera || light.mis)
-}
-
-impl LightSet {
-    /// Nearest visible analytic light between `t_min` and `t_max` on a ray with a unit
-    /// direction, and its distance. Suns are not among them ([`LightSet::escaped`]).
-    pub fn intersect(
-        &self,
-        origin: Vec3,
-        direction: Vec3,
-        t_min: f32,
-        t_max: f32,
-        kind: RayKind,
-    ) -> Option<(u32, f32)> {
-        self.bvh
-            .intersect(self.analytic(), origin, direction, t_min, t_max, kind)
-    }
-
-    /// True where no ray can meet an analytic light, so that `intersect` need not be asked.
-    pub fn nothing_to_meet(&self) -> bool {
-        self.bvh.nodes.is_empty()
-    }
-
-    /// Radiance and density of a light that `intersect` found. `p` and `n` belong to the last
-    /// scattering and `distance` counts from there.
-    pub fn hit(&self, index: u32, p: Vec3, n: Vec3, wi: Vec3, distance: f32) -> Option<LightHit> {
-        let light = self.analytic.get(index as usize)?;
-        let chosen = self.probability_analytic(index, p, n);
-        Some(LightHit {
-            light: LightId::Analytic(index),
-            radiance: self.radiance(index, p, wi)?,
-            pdf: chosen * light_direction_pdf(light.shape, p, n, wi, distance),
-            max_bounces: light.max_bounces,
-        })
-    }
-
-    /// Suns that a ray sees that left the scene in the unit direction `wi`. `p` and `n` belong
-    /// to the last scattering. The world is the caller's: [`LightSet::pdf_world`].
-    pub fn escaped(
-        &self,
-        p: Vec3,
-        n: Vec3,
-        wi: Vec3,
-        kind: RayKind,
-    ) -> impl Iterator<Item = LightHit> {
-        self.distant.suns().filter_map(move |index| {
-            let light = &self.analytic[index as usize];
-            // Unlike other lights, a sun without multiple importance is not even on camera.
-            let seen = light.mis && sees(light, kind) && light_sun_contains(light.shape, wi);
-            if seen {
-                self.hit(index, p, n, wi, f32::INFINITY)
-            } else {
-                None
-            }
-        })
-    }
-}
-
-#[derive(Clone, Copy, Debug)]
-struct BvhNode {
-    low: Vec3,
-    high: Vec3,
-    /// Range of `order` for a leaf, first child and 0 for an inner node.
-    first: u32,
-    count: u32,
 }
 
 /// Lights of a leaf.
@@ -125,22 +59,21 @@ const LEAF: usize = 4;
 /// A small hierarchy over the analytic lights with a shape.
 #[derive(Clone, Debug, Default)]
 pub struct LightBvh {
-    nodes: Vec<BvhNode>,
+    nodes: Vec<LightBox>,
     order: Vec<u32>,
 }
 
 impl LightBvh {
     /// Builds it by halving along the longest side.
     pub fn build(lights: &[LightOf]) -> Self {
-        let has_shape =
-            |l: &LightOf| !super::escape::is_sun(&l.shape) && l.shape.kind != LIGHT_POINT;
+        let has_shape = |l: &LightOf| !is_sun(&l.shape) && l.shape.kind != LIGHT_POINT;
         let mut order: Vec<u32> = (0..lights.len() as u32)
             .filter(|&i| has_shape(&lights[i as usize]))
             .collect();
         let mut nodes = Vec::new();
         if !order.is_empty() {
             let end = order.len();
-            nodes.push(BvhNode {
+            nodes.push(LightBox {
                 low: Vec3::ZERO,
                 high: Vec3::ZERO,
                 first: 0,
@@ -151,60 +84,29 @@ impl LightBvh {
         Self { nodes, order }
     }
 
-    fn intersect(
-        &self,
-        lights: &[LightOf],
-        origin: Vec3,
-        direction: Vec3,
-        t_min: f32,
-        t_max: f32,
-        kind: RayKind,
-    ) -> Option<(u32, f32)> {
-        if self.nodes.is_empty() {
-            return None;
+    /// The hierarchy without the lights.
+    #[inline(always)]
+    pub fn view(&self) -> LightView<'_> {
+        LightView {
+            boxes: &self.nodes,
+            order: &self.order,
+            ..LightView::default()
         }
-        let inverse = direction.recip();
-        let mut found = None;
-        let mut nearest = t_max;
-        // Halving keeps the depth below 32, and each level leaves one node behind.
-        let mut stack = [0u32; 34];
-        let mut size = 1;
-        while size > 0 {
-            size -= 1;
-            let node = &self.nodes[stack[size] as usize];
-            if !meets(node, origin, inverse, t_min, nearest) {
-                continue;
-            }
-            if node.count == 0 {
-                stack[size] = node.first;
-                stack[size + 1] = node.first + 1;
-                size += 2;
-                continue;
-            }
-            for &index in &self.order[node.first as usize..(node.first + node.count) as usize] {
-                let light = &lights[index as usize];
-                let t = light_distance(light.shape, origin, direction);
-                if t > t_min && t < nearest && sees(light, kind) {
-                    nearest = t;
-                    found = Some((index, t));
-                }
-            }
-        }
-        found
+    }
+
+    /// Bytes in memory.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.order[..])
+    }
+
+    /// True without lights that a ray could meet.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
     }
 }
 
-fn meets(node: &BvhNode, origin: Vec3, inverse: Vec3, t_min: f32, t_max: f32) -> bool {
-    let a = (node.low - origin) * inverse;
-    let b = (node.high - origin) * inverse;
-    // `min` and `max` take the number where the other side is none (0 · ∞).
-    let near = (0..3).map(|i| a[i].min(b[i])).fold(t_min, f32::max);
-    let far = (0..3).map(|i| a[i].max(b[i])).fold(t_max, f32::min);
-    near <= far * 1.000_001
-}
-
 fn fill(
-    nodes: &mut Vec<BvhNode>,
+    nodes: &mut Vec<LightBox>,
     at: usize,
     order: &mut [u32],
     range: std::ops::Range<usize>,
@@ -224,7 +126,7 @@ fn fill(
     let margin = Vec3::splat(1e-5) * (Vec3::ONE + low.abs().max(high.abs()));
     let (low, high) = (low - margin, high + margin);
     if part.len() <= LEAF {
-        nodes[at] = BvhNode {
+        nodes[at] = LightBox {
             low,
             high,
             first: range.start as u32,
@@ -239,14 +141,14 @@ fn fill(
         centre(a).total_cmp(&centre(b)).then(a.cmp(b))
     });
     let first = nodes.len();
-    let blank = BvhNode {
+    let blank = LightBox {
         low,
         high,
         first: 0,
         count: 0,
     };
     nodes.extend([blank, blank]);
-    nodes[at] = BvhNode {
+    nodes[at] = LightBox {
         low,
         high,
         first: first as u32,

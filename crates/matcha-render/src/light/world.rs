@@ -1,10 +1,10 @@
-//! The world as a light: constant, or with an importance map.
-//!
-//! The map is equirectangular with rows that are uniform in latitude; row 0 is around +Z.
-//! Inside of a texel directions are uniform in SOLID ANGLE, so that the density is constant
-//! there.
+//! What the world radiates, and its importance map; sampling is in
+//! [`crate::device::light_world`].
 
-use crate::device::light_importance::light_world_irradiance;
+use crate::device::light_view::{LIGHT_WORLD_MAP, LightView};
+use crate::device::light_world::{
+    light_world_estimate, light_world_map_pdf, light_world_map_sample,
+};
 use glam::{Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
 
@@ -47,10 +47,8 @@ pub enum WorldRadiance {
 pub struct WorldMap {
     width: u32,
     height: u32,
-    /// Cumulative probability of rows, `height + 1` entries.
-    rows: Vec<f32>,
-    /// Cumulative probability of each row's texels, `width + 1` entries a row.
-    texels: Vec<f32>,
+    /// As [`crate::device::light_world`] lays it out.
+    tables: Vec<f32>,
     /// Spherical harmonics of the luminance.
     harmonics: [f32; 9],
     /// Irradiance of the mean luminance on one side.
@@ -87,73 +85,59 @@ impl WorldMap {
             let weights = (0..width).map(|x| f64::from(spread(&value, x, y, width, height)) + even);
             row_sums.push(push_cumulative(&mut texels, weights) * row_angle(y));
         }
-        let mut rows = Vec::with_capacity(height + 1);
-        push_cumulative(&mut rows, row_sums.into_iter());
-        let mean_irradiance = (total * 0.25) as f32;
-        let harmonics = harmonics(&value, width, height);
+        let mut tables = Vec::with_capacity(3 * height + 2 + texels.len());
+        push_cumulative(&mut tables, row_sums.into_iter());
+        tables.extend((0..=height).map(|y| edge_cosine(y, height)));
+        tables.extend((0..height).map(|y| row_solid_angle(y, height) as f32 / width as f32));
+        tables.extend(texels);
         Some(Self {
             width: grid.width,
             height: grid.height,
-            rows,
-            texels,
-            harmonics,
-            mean_irradiance,
+            tables,
+            harmonics: harmonics(&value, width, height),
+            mean_irradiance: (total * 0.25) as f32,
         })
+    }
+
+    /// The map without other lights.
+    #[inline(always)]
+    pub fn view(&self) -> LightView<'_> {
+        LightView {
+            world: &self.tables,
+            world_kind: LIGHT_WORLD_MAP,
+            world_width: self.width,
+            world_height: self.height,
+            world_irradiance: self.mean_irradiance,
+            world_harmonics: self.harmonics,
+            ..LightView::default()
+        }
     }
 
     /// Bytes in memory.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.rows[..]) + size_of_val(&self.texels[..])
+        size_of_val(&self.tables[..])
     }
 
     /// Estimate of the irradiance at a surface with unit normal `n`; zero `n`: mean of both sides.
     pub fn irradiance(&self, n: Vec3) -> f32 {
-        if n == Vec3::ZERO {
-            return self.mean_irradiance;
-        }
-        // Nine harmonics ring around sharp suns: never below a tenth of the mean.
-        light_world_irradiance(self.harmonics, n).max(0.1 * self.mean_irradiance)
-    }
-
-    fn row(&self, y: usize) -> &[f32] {
-        let stride = self.width as usize + 1;
-        &self.texels[y * stride..(y + 1) * stride]
+        light_world_estimate(self.view(), n)
     }
 
     /// A direction for `u` in [0, 1)², with its density over solid angle.
     pub fn sample(&self, u: Vec2) -> (Vec3, f32) {
-        let (y, v) = find(&self.rows, u.y);
-        let (x, s) = find(self.row(y), u.x);
-        let (top, bottom) = self.row_cosines(y);
-        let z = top + (bottom - top) * v;
-        let azimuth = PI - TAU * (x as f32 + s) / self.width as f32;
-        let level = (1.0 - z * z).max(0.0).sqrt();
-        (
-            Vec3::new(level * azimuth.cos(), level * azimuth.sin(), z),
-            self.texel_pdf(x, y),
-        )
+        let sampled = light_world_map_sample(self.view(), u);
+        (sampled.direction, sampled.pdf)
     }
 
     /// Density over solid angle with which `sample` finds a unit direction.
     pub fn pdf(&self, direction: Vec3) -> f32 {
-        let s = 0.5 - direction.y.atan2(direction.x) / TAU;
-        let x = ((s * self.width as f32) as usize).min(self.width as usize - 1);
-        let t = direction.z.clamp(-1.0, 1.0).acos() / PI;
-        let y = ((t * self.height as f32) as usize).min(self.height as usize - 1);
-        self.texel_pdf(x, y)
+        light_world_map_pdf(self.view(), direction)
     }
+}
 
-    fn row_cosines(&self, y: usize) -> (f32, f32) {
-        let cosine =
-            |y: usize| (std::f64::consts::PI * y as f64 / f64::from(self.height)).cos() as f32;
-        (cosine(y), cosine(y + 1))
-    }
-
-    fn texel_pdf(&self, x: usize, y: usize) -> f32 {
-        let row = self.row(y);
-        let angle = row_solid_angle(y, self.height as usize) as f32 / self.width as f32;
-        (self.rows[y + 1] - self.rows[y]) * (row[x + 1] - row[x]) / angle
-    }
+/// Cosine of the polar angle at the upper edge of a row.
+fn edge_cosine(y: usize, height: usize) -> f32 {
+    (std::f64::consts::PI * y as f64 / height as f64).cos() as f32
 }
 
 /// Solid angle of a row of an equirectangular grid, steradians.
@@ -193,19 +177,6 @@ fn push_cumulative(to: &mut Vec<f32>, weights: impl Iterator<Item = f64>) -> f64
     to.extend(sums.iter().map(|s| (s / total) as f32));
     debug_assert!(to.len() > start);
     total
-}
-
-/// Interval of a cumulative distribution that holds `u`, and the place of `u` inside.
-fn find(cumulative: &[f32], u: f32) -> (usize, f32) {
-    let after = cumulative.partition_point(|&c| c <= u);
-    let i = after.clamp(1, cumulative.len() - 1) - 1;
-    let width = cumulative[i + 1] - cumulative[i];
-    let place = if width > 0.0 {
-        (u - cumulative[i]) / width
-    } else {
-        0.5
-    };
-    (i, place.clamp(0.0, super::tree::ONE_BELOW))
 }
 
 /// Real spherical harmonics of a luminance on the grid, bands 0 to 2.

@@ -172,8 +172,8 @@ fn samples_fall_where_the_density_is() {
             for i in 0..fine {
                 let d = even_direction(i);
                 if seen(&lights, p, d) > 0.0 {
-                    let t = crate::device::light_analytic::light_distance(shape, p, d);
-                    let pdf = light_direction_pdf(shape, p, Vec3::ZERO, d, t);
+                    let t = crate::device::light_analytic::light_distance(&shape, p, d);
+                    let pdf = light_direction_pdf(&shape, p, Vec3::ZERO, d, t);
                     expected[cell(d)] +=
                         f64::from(pdf) * 4.0 * std::f64::consts::PI / f64::from(fine);
                 }

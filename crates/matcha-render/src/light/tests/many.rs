@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::device::light_importance::LightBounds;
+use crate::device::light_sample::light_sample_triangle;
 use std::time::Instant;
 
 /// Pseudo-random number in [0, 1) of a counter.
@@ -139,7 +140,9 @@ fn the_tree_prefers_lights_that_matter() {
             })
         };
         let a = value(lights.sample(p, n, select, u));
-        let b = value(lights.sample_triangle((select * 2000.0) as u32, p, u, 1.0 / 2000.0));
+        let emitter = (select * 2000.0) as u32;
+        let one = light_sample_triangle(lights.view(), emitter, p, u, 1.0 / 2000.0);
+        let b = value(LightSample::new(&one));
         tree = (tree.0 + a, tree.1 + a * a);
         even = (even.0 + b, even.1 + b * b);
     }

@@ -1,0 +1,179 @@
+//! The world as a light: constant, or with an importance map.
+//!
+//! The map is equirectangular with rows that are uniform in latitude; row 0 is around +Z.
+//! Inside of a texel directions are uniform in SOLID ANGLE, so that the density is constant
+//! there.
+//!
+//! [`LightView::world`] holds, for w × h texels: h + 1 cumulative probabilities of the rows,
+//! h + 1 cosines of the rows' edges, h solid angles of a row's texel (steradians), and for
+//! each row w + 1 cumulative probabilities of its texels.
+
+use crate::device::light_importance::light_world_irradiance;
+use crate::device::light_sun::light_from_both_sides;
+use crate::device::light_tree::LIGHT_ONE_BELOW;
+use crate::device::light_view::{LIGHT_WORLD_CONSTANT, LIGHT_WORLD_MAP, LightView};
+use crate::device::mapping::{mapping_cone, mapping_cosine, mapping_frame, mapping_place};
+use glam::{Vec2, Vec3};
+use matcha_shade::device::math::{
+    FRAC_1_PI, PI, TAU, acos, atan2, clamp, cos, dot, max, select, sin, sqrt, to_int, vec3,
+};
+
+/// Start of the cosines of the rows' edges in the tables of a map with `height` rows.
+#[inline(always)]
+pub fn light_world_cosines(height: u32) -> u32 {
+    height + 1
+}
+
+/// Start of the solid angles of the rows' texels.
+#[inline(always)]
+pub fn light_world_angles(height: u32) -> u32 {
+    2 * (height + 1)
+}
+
+/// Start of the cumulative probabilities of a row's texels.
+#[inline(always)]
+pub fn light_world_row(width: u32, height: u32, y: u32) -> u32 {
+    3 * height + 2 + y * (width + 1)
+}
+
+/// A direction to the world.
+#[derive(Clone, Copy, Debug)]
+pub struct LightWorldDirection {
+    /// Unit direction.
+    pub direction: Vec3,
+    /// Density over solid angle.
+    pub pdf: f32,
+}
+
+/// Estimate of the luminous irradiance that the world brings to a surface with unit normal
+/// `n`; zero `n`: mean of both sides.
+#[inline]
+pub fn light_world_estimate(view: LightView, n: Vec3) -> f32 {
+    let mean = view.world_irradiance;
+    if view.world_kind != LIGHT_WORLD_MAP || light_from_both_sides(n) {
+        return mean;
+    }
+    // Nine harmonics ring around sharp suns: never below a tenth of the mean.
+    max(light_world_irradiance(view.world_harmonics, n), 0.1 * mean)
+}
+
+/// An interval of a cumulative distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct LightInterval {
+    /// Which.
+    pub index: u32,
+    /// Place inside, in [0, 1).
+    pub place: f32,
+}
+
+/// Interval that holds `u` in the cumulative distribution of `count` intervals that begins
+/// at `start` of the world's tables.
+#[inline]
+pub fn light_world_find(view: LightView, start: u32, count: u32, u: f32) -> LightInterval {
+    // The last edge is 1, above every u.
+    let mut low = 0;
+    let mut high = count;
+    while high - low > 1 {
+        let middle = (low + high) / 2;
+        if view.world[(start + middle) as usize] <= u {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let from = view.world[(start + low) as usize];
+    let width = view.world[(start + low + 1) as usize] - from;
+    let place = select(
+        0.5,
+        (u - from) / select(1.0, width, width > 0.0),
+        width > 0.0,
+    );
+    LightInterval {
+        index: low,
+        place: clamp(place, 0.0, LIGHT_ONE_BELOW),
+    }
+}
+
+/// Density over solid angle in a texel of the map.
+#[inline]
+pub fn light_world_texel_pdf(view: LightView, x: u32, y: u32) -> f32 {
+    let row = light_world_row(view.world_width, view.world_height, y) + x;
+    let of_row = view.world[(y + 1) as usize] - view.world[y as usize];
+    let of_texel = view.world[(row + 1) as usize] - view.world[row as usize];
+    let angle = view.world[(light_world_angles(view.world_height) + y) as usize];
+    of_row * of_texel / angle
+}
+
+/// A direction of the map for `u` in [0, 1)².
+#[inline]
+pub fn light_world_map_sample(view: LightView, u: Vec2) -> LightWorldDirection {
+    let row = light_world_find(view, 0, view.world_height, u.y);
+    let start = light_world_row(view.world_width, view.world_height, row.index);
+    let column = light_world_find(view, start, view.world_width, u.x);
+    let edge = light_world_cosines(view.world_height) + row.index;
+    let top = view.world[edge as usize];
+    let bottom = view.world[(edge + 1) as usize];
+    let z = top + (bottom - top) * row.place;
+    let azimuth = PI - TAU * (column.index as f32 + column.place) / view.world_width as f32;
+    let level = sqrt(max(1.0 - z * z, 0.0));
+    LightWorldDirection {
+        direction: vec3(level * cos(azimuth), level * sin(azimuth), z),
+        pdf: light_world_texel_pdf(view, column.index, row.index),
+    }
+}
+
+/// `x` · `count` as an index below `count`, for `x` from 0 to 1.
+#[inline(always)]
+pub fn light_world_index(x: f32, count: u32) -> u32 {
+    to_int(clamp(x * count as f32, 0.0, (count - 1) as f32)) as u32
+}
+
+/// Density with which [`light_world_map_sample`] finds a unit direction.
+#[inline]
+pub fn light_world_map_pdf(view: LightView, direction: Vec3) -> f32 {
+    let s = 0.5 - atan2(direction.y, direction.x) / TAU;
+    let t = acos(clamp(direction.z, -1.0, 1.0)) / PI;
+    let x = light_world_index(s, view.world_width);
+    let y = light_world_index(t, view.world_height);
+    light_world_texel_pdf(view, x, y)
+}
+
+/// Density of directions to a constant world: the cosine around `n`, or all alike.
+#[inline]
+pub fn light_world_constant_pdf(n: Vec3, wi: Vec3) -> f32 {
+    select(
+        max(dot(n, wi), 0.0) * FRAC_1_PI,
+        0.25 * FRAC_1_PI,
+        light_from_both_sides(n),
+    )
+}
+
+/// Samples the world: its map, or where it is constant the cosine around `n`.
+#[inline]
+pub fn light_world_sample(view: LightView, n: Vec3, u: Vec2) -> LightWorldDirection {
+    if view.world_kind == LIGHT_WORLD_MAP {
+        return light_world_map_sample(view, u);
+    }
+    let direction = if light_from_both_sides(n) {
+        mapping_cone(u, 2.0)
+    } else {
+        let local = mapping_cosine(u);
+        mapping_place(mapping_frame(n), local.x, local.y, local.z)
+    };
+    LightWorldDirection {
+        direction,
+        pdf: light_world_constant_pdf(n, direction),
+    }
+}
+
+/// Density of [`light_world_sample`]; 0 where the world is not sampled.
+#[inline]
+pub fn light_world_pdf(view: LightView, n: Vec3, wi: Vec3) -> f32 {
+    if view.world_kind == LIGHT_WORLD_MAP {
+        return light_world_map_pdf(view, wi);
+    }
+    if view.world_kind == LIGHT_WORLD_CONSTANT {
+        return light_world_constant_pdf(n, wi);
+    }
+    0.0
+}
