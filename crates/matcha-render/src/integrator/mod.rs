@@ -169,11 +169,11 @@ impl Path {
             cone_width: self.cone_width,
             cone_spread: self.cone_spread,
             ray_length,
-            bounce: self.bounce,
-            diffuse: self.diffuse,
-            glossy: self.glossy,
-            transmission: self.transmission,
-            transparent: self.transparent,
+            bounce: u32::from(self.bounce),
+            diffuse: u32::from(self.diffuse),
+            glossy: u32::from(self.glossy),
+            transmission: u32::from(self.transmission),
+            transparent: u32::from(self.transparent),
         }
     }
 

@@ -5,26 +5,12 @@ use glam::Vec3;
 
 /// Kind of the ray that a path currently follows, and what happened to the path before.
 pub mod flags {
-    /// Straight from the camera (through transparent surfaces too).
-    pub const CAMERA: u32 = 1 << 0;
-    /// Last scattered by a diffuse closure.
-    pub const DIFFUSE: u32 = 1 << 1;
-    /// Last scattered by a glossy closure.
-    pub const GLOSSY: u32 = 1 << 2;
-    /// Last scattered by a perfectly sharp closure.
-    pub const SINGULAR: u32 = 1 << 3;
-    /// Last scattered to the side it came from.
-    pub const REFLECT: u32 = 1 << 4;
-    /// Last scattered through the surface.
-    pub const TRANSMIT: u32 = 1 << 5;
-    /// A shadow ray.
-    pub const SHADOW: u32 = 1 << 6;
-    /// The next surface still adds its emission, then the path ends.
-    pub const TERMINATE: u32 = 1 << 7;
-    /// Albedo, normal and depth are on the film.
-    pub const FEATURES_DONE: u32 = 1 << 8;
-    /// Some diffuse closure scattered the path before (for caustics).
-    pub const DIFFUSE_ANCESTOR: u32 = 1 << 10;
+    pub use crate::device::path_flags::{
+        PATH_CAMERA as CAMERA, PATH_DIFFUSE as DIFFUSE, PATH_DIFFUSE_ANCESTOR as DIFFUSE_ANCESTOR,
+        PATH_FEATURES_DONE as FEATURES_DONE, PATH_GLOSSY as GLOSSY, PATH_REFLECT as REFLECT,
+        PATH_SHADOW as SHADOW, PATH_SINGULAR as SINGULAR, PATH_TERMINATE as TERMINATE,
+        PATH_TRANSMIT as TRANSMIT,
+    };
 }
 
 /// Everything that a path carries from one surface to the next.

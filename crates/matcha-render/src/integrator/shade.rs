@@ -7,9 +7,9 @@ use super::sample::{self, Draw};
 use super::worker::{Emitter, LightTask, SurfaceTask, Worker};
 use crate::accel::{Hit, Ray, offset_origin, ray_kind};
 use crate::closure::{ClosureContext, LobeSet, Scattered, flags as scatter};
+use crate::device::surface_cone::cone_spread_after;
 use crate::light::{Emission, LightSample};
 use crate::surface::SurfacePoint;
-use crate::surface::cone::spread_after_scattering;
 use glam::{Vec3, Vec3Swizzles};
 
 /// Hits shaded at a time: their rows stay in the second-level cache.
@@ -292,7 +292,7 @@ fn scatter_on(
     path.leaves = [task.hit.instance, task.hit.primitive];
     path.cone_width = point.cone_width;
     let alpha = next.roughness * next.roughness;
-    path.cone_spread = spread_after_scattering(path.cone_spread, alpha, kind.diffuse);
+    path.cone_spread = cone_spread_after(path.cone_spread, alpha, kind.diffuse);
     survives(path)
 }
 
