@@ -5,6 +5,7 @@ pub mod blend;
 pub mod color;
 pub mod fractal;
 pub mod hash;
+pub mod input_code;
 pub mod math;
 pub mod pattern;
 pub mod perlin;

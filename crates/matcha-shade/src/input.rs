@@ -1,5 +1,6 @@
 //! What a program can read of the point that is shaded, and how far that reaches.
 
+use crate::device::input_code::*;
 use serde::{Deserialize, Serialize};
 
 /// How much of the shading point a value depends on; ordered, join is `max`
@@ -32,6 +33,18 @@ pub enum Part {
     AxisA,
     /// Change along the second axis.
     AxisB,
+}
+
+impl Part {
+    /// The part's code: one of the `INPUT_PART_` constants.
+    #[inline]
+    pub fn code(self) -> u32 {
+        match self {
+            Part::Value => INPUT_PART_VALUE,
+            Part::AxisA => INPUT_PART_AXIS_A,
+            Part::AxisB => INPUT_PART_AXIS_B,
+        }
+    }
 }
 
 /// A quantity of the shading point.
@@ -117,6 +130,52 @@ pub enum InputKind {
 }
 
 impl InputKind {
+    /// The quantity's code, one of the `INPUT_` constants, and the index of the name that it
+    /// has beside it (0: none).
+    #[inline]
+    pub fn code(self) -> (u32, u16) {
+        use InputKind::*;
+        match self {
+            Uv(name) => (INPUT_UV, name),
+            Position => (INPUT_POSITION, 0),
+            Normal => (INPUT_NORMAL, 0),
+            TrueNormal => (INPUT_TRUE_NORMAL, 0),
+            Incoming => (INPUT_INCOMING, 0),
+            Tangent(name) => (INPUT_TANGENT, name),
+            TangentSign(name) => (INPUT_TANGENT_SIGN, name),
+            DpDu(name) => (INPUT_DP_DU, name),
+            DpDv(name) => (INPUT_DP_DV, name),
+            Generated => (INPUT_GENERATED, 0),
+            Object => (INPUT_OBJECT, 0),
+            Camera => (INPUT_CAMERA, 0),
+            Window => (INPUT_WINDOW, 0),
+            Parametric => (INPUT_PARAMETRIC, 0),
+            Attribute(name) => (INPUT_ATTRIBUTE, name),
+            Backfacing => (INPUT_BACKFACING, 0),
+            Pointiness => (INPUT_POINTINESS, 0),
+            RandomPerIsland => (INPUT_RANDOM_PER_ISLAND, 0),
+            ObjectLocation => (INPUT_OBJECT_LOCATION, 0),
+            ObjectColor => (INPUT_OBJECT_COLOR, 0),
+            ObjectAlpha => (INPUT_OBJECT_ALPHA, 0),
+            ObjectIndex => (INPUT_OBJECT_INDEX, 0),
+            MaterialIndex => (INPUT_MATERIAL_INDEX, 0),
+            ObjectRandom => (INPUT_OBJECT_RANDOM, 0),
+            IsCameraRay => (INPUT_IS_CAMERA_RAY, 0),
+            IsShadowRay => (INPUT_IS_SHADOW_RAY, 0),
+            IsDiffuseRay => (INPUT_IS_DIFFUSE_RAY, 0),
+            IsGlossyRay => (INPUT_IS_GLOSSY_RAY, 0),
+            IsSingularRay => (INPUT_IS_SINGULAR_RAY, 0),
+            IsReflectionRay => (INPUT_IS_REFLECTION_RAY, 0),
+            IsTransmissionRay => (INPUT_IS_TRANSMISSION_RAY, 0),
+            RayLength => (INPUT_RAY_LENGTH, 0),
+            RayDepth => (INPUT_RAY_DEPTH, 0),
+            DiffuseDepth => (INPUT_DIFFUSE_DEPTH, 0),
+            GlossyDepth => (INPUT_GLOSSY_DEPTH, 0),
+            TransparentDepth => (INPUT_TRANSPARENT_DEPTH, 0),
+            TransmissionDepth => (INPUT_TRANSMISSION_DEPTH, 0),
+        }
+    }
+
     /// Number of rows (f32 each) that a value takes.
     pub fn width(self) -> usize {
         use InputKind::*;
@@ -171,4 +230,78 @@ pub struct Input {
     pub kind: InputKind,
     /// Its value or one of its two derivatives.
     pub part: Part,
+}
+
+impl Input {
+    /// The input in one word, as devices read it.
+    pub fn packed(self) -> u32 {
+        let (code, name) = self.kind.code();
+        input_pack(code, self.part.code(), u32::from(name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use InputKind::*;
+
+    const NAMED: [fn(u16) -> InputKind; 6] =
+        [Uv, Tangent, TangentSign, DpDu, DpDv, InputKind::Attribute];
+    const PLAIN: [InputKind; 31] = [
+        Position,
+        Normal,
+        TrueNormal,
+        Incoming,
+        Generated,
+        Object,
+        Camera,
+        Window,
+        Parametric,
+        Backfacing,
+        Pointiness,
+        RandomPerIsland,
+        ObjectLocation,
+        ObjectColor,
+        ObjectAlpha,
+        ObjectIndex,
+        MaterialIndex,
+        ObjectRandom,
+        IsCameraRay,
+        IsShadowRay,
+        IsDiffuseRay,
+        IsGlossyRay,
+        IsSingularRay,
+        IsReflectionRay,
+        IsTransmissionRay,
+        RayLength,
+        RayDepth,
+        DiffuseDepth,
+        GlossyDepth,
+        TransparentDepth,
+        TransmissionDepth,
+    ];
+
+    #[test]
+    fn every_quantity_has_a_code_of_its_own_and_is_unpacked_as_it_was() {
+        let kinds = NAMED.iter().map(|kind| kind(513)).chain(PLAIN);
+        let mut seen = [false; 37];
+        for kind in kinds {
+            let (code, name) = kind.code();
+            assert!(
+                !std::mem::replace(&mut seen[code as usize], true),
+                "{kind:?}"
+            );
+            assert_eq!(
+                input_is_differentiable(code),
+                kind.is_differentiable(),
+                "{kind:?}"
+            );
+            for part in [Part::Value, Part::AxisA, Part::AxisB] {
+                let packed = Input { kind, part }.packed();
+                let parts = (input_code(packed), input_part(packed), input_name(packed));
+                assert_eq!(parts, (code, part.code(), u32::from(name)), "{kind:?}");
+            }
+        }
+        assert_eq!(seen, [true; 37]);
+    }
 }

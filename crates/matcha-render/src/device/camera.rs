@@ -4,6 +4,7 @@
 //! pixels from the TOP left corner of the picture.
 
 use crate::device::mapping::{MappingFrame, mapping_disk, mapping_place};
+use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 use matcha_shade::device::math::{
     PI, abs, cos, dot, floor, max, min, normalize, select, sin, sqrt, vec2, vec3,
@@ -17,7 +18,8 @@ pub const CAMERA_ORTHOGRAPHIC: u32 = 1;
 pub const CAMERA_PANORAMA: u32 = 2;
 
 /// A camera, ready for one picture size.
-#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct RasterCamera {
     /// One of the `CAMERA_` constants.
     pub kind: u32,

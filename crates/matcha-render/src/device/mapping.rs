@@ -1,12 +1,13 @@
 //! Mappings from the unit square to disks, cones and spheres that keep areas, and the
 //! frames in which they are placed.
 
+use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 use matcha_shade::device::math::{PI, cos, max, select, sin, sqrt, vec2, vec3};
 
 /// Right-handed frame around a unit vector.
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct MappingFrame {
     /// First tangent.
     pub x: Vec3,

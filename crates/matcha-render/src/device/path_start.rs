@@ -4,7 +4,8 @@ use glam::{Vec2, Vec3};
 use matcha_shade::device::math::{MAX, abs, clamp, negate_if, splat3, sqrt, to_int, vec2};
 
 use super::camera::{CameraRay, RasterCamera, camera_ray};
-use super::path_state::{PATH_CAMERA, Path};
+use super::path_flags::PATH_CAMERA;
+use super::path_state::Path;
 use super::sobol::{sobol_2d, sobol_pixel_seed};
 
 /// Draw of a path's sequence for the place in the pixel.

@@ -3,12 +3,12 @@
 use glam::Vec3;
 use matcha_shade::device::math::{MAX, abs3, min};
 
+use super::path_flags::{PATH_CAMERA, PATH_DIFFUSE, PATH_FEATURES_DONE, PATH_TRANSMIT};
 use super::path_ray::ray_offset_origin;
 use super::path_start::{DRAW_LIGHT_KEEP, DRAW_PER_SURFACE, DRAW_ROULETTE};
 use super::path_state::{
-    PATH_CAMERA, PATH_DIFFUSE, PATH_FEATURES_DONE, PATH_TRANSMIT, Path, PathSettings, ScatterKind,
-    path_count_bounce, path_count_transparent, path_is_finite3, path_max_element, path_survival,
-    path_uncover,
+    Path, PathSettings, ScatterKind, path_count_bounce, path_count_transparent, path_is_finite3,
+    path_max_element, path_survival, path_uncover,
 };
 use super::ray_kind::{RAY_CAMERA, RAY_DIFFUSE, RAY_GLOSSY, RAY_TRANSMISSION};
 use super::sobol::sobol_1d;

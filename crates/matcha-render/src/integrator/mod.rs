@@ -131,11 +131,11 @@ impl Path {
             cone_width: self.cone_width,
             cone_spread: self.cone_spread,
             ray_length,
-            bounce: self.bounce as u16,
-            diffuse: self.diffuse as u16,
-            glossy: self.glossy as u16,
-            transmission: self.transmission as u16,
-            transparent: self.transparent as u16,
+            bounce: self.bounce,
+            diffuse: self.diffuse,
+            glossy: self.glossy,
+            transmission: self.transmission,
+            transparent: self.transparent,
         }
     }
 

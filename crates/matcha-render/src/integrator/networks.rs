@@ -291,7 +291,7 @@ fn shadow_info(direction: Vec3) -> PathInfo {
         direction,
         flags: flags::SHADOW,
         // As wide as the cone after a diffuse bounce: what light carries is blurred anyway.
-        cone_spread: crate::surface::cone::DIFFUSE_SPREAD,
+        cone_spread: crate::device::surface_cone::DIFFUSE_SPREAD,
         ..Default::default()
     }
 }
@@ -329,7 +329,7 @@ fn build_lobes(
         n: shading_normal(program, outputs, i).unwrap_or(point.normal),
         ng: point.true_normal,
         wo: point.outgoing,
-        backfacing: point.backfacing,
+        backfacing: point.backfacing != 0,
         bump_correction: true,
     };
     lobes.begin(&frame);

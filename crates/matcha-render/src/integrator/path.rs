@@ -8,7 +8,7 @@ use crate::scene::Settings;
 /// Kind of the ray that a path currently follows, and what happened to the path before; the
 /// bits are those of the device code.
 pub mod flags {
-    pub use crate::device::path_state::{
+    pub use crate::device::path_flags::{
         PATH_CAMERA as CAMERA, PATH_DIFFUSE as DIFFUSE, PATH_DIFFUSE_ANCESTOR as DIFFUSE_ANCESTOR,
         PATH_FEATURES_DONE as FEATURES_DONE, PATH_GLOSSY as GLOSSY, PATH_REFLECT as REFLECT,
         PATH_SHADOW as SHADOW, PATH_SINGULAR as SINGULAR, PATH_TERMINATE as TERMINATE,

@@ -12,9 +12,9 @@ use crate::device::path_state::{path_add_met, path_blur_roughness};
 use crate::device::path_step::{
     PathTurn, path_hold_out, path_keep_small, path_note_features, path_pass_through, path_scatter,
 };
+use crate::device::surface_cone::cone_spread_after;
 use crate::light::{Emission, LightSample};
 use crate::surface::SurfacePoint;
-use crate::surface::cone::spread_after_scattering;
 use glam::{Vec3, Vec3Swizzles};
 
 /// Hits shaded at a time: their rows stay in the second-level cache.
@@ -237,7 +237,7 @@ fn scatter_on(
         true_normal: point.true_normal,
         selection_normal: selection_normal(point, lobes),
         cone_width: point.cone_width,
-        cone_spread: spread_after_scattering(path.cone_spread, alpha, kind.diffuse),
+        cone_spread: cone_spread_after(path.cone_spread, alpha, kind.diffuse),
         leaves: [task.hit.instance, task.hit.primitive],
         wi: next.wi,
         pdf: next.pdf,

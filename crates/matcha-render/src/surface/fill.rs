@@ -1,10 +1,12 @@
 //! Input rows of a group of points, one quantity at a time.
 
-use super::point::{PathInfo, SurfacePoint};
-use super::tables::{SurfaceTables, material_of, unit_or};
-use crate::integrator::path::flags;
+use super::tables::{SurfaceTables, material_of};
+use crate::device::surface_input::*;
+use crate::device::surface_path::path_quantity;
+use crate::device::surface_point::{SurfacePlacement, SurfacePoint};
 use crate::scene::{Instance, Mesh, Scene};
-use glam::{Vec2, Vec3, Vec3A, Vec4};
+use glam::{Vec2, Vec3, Vec4};
+use matcha_shade::device::input_code::INPUT_PART_VALUE;
 use matcha_shade::input::{Input, InputKind, Part};
 use matcha_shade::rows::Rows;
 
@@ -74,69 +76,6 @@ fn each1(
     each(rows, first, points, |point| [value(point)]);
 }
 
-/// What a part takes of a quantity that is linear over the triangle.
-#[inline(always)]
-fn linear<V>(point: &SurfacePoint, part: Part, [a, b, c]: [V; 3]) -> V
-where
-    V: Copy
-        + std::ops::Add<Output = V>
-        + std::ops::Sub<Output = V>
-        + std::ops::Mul<f32, Output = V>,
-{
-    let (ab, ac) = (b - a, c - a);
-    match part {
-        Part::Value => a + ab * point.weights.x + ac * point.weights.y,
-        Part::AxisA => ab * point.weights_along[0].x + ac * point.weights_along[0].y,
-        Part::AxisB => ab * point.weights_along[1].x + ac * point.weights_along[1].y,
-    }
-}
-
-/// A world vector of a part.
-#[inline(always)]
-fn axis(point: &SurfacePoint, part: Part) -> Vec3 {
-    if part == Part::AxisA {
-        point.axes[0]
-    } else {
-        point.axes[1]
-    }
-}
-
-/// Numbers that belong to the path; none for other quantities.
-pub(super) fn path_quantity(kind: InputKind, path: &PathInfo) -> Option<f32> {
-    let flag = |bit: u32| f32::from(u8::from(path.flags & bit != 0));
-    Some(match kind {
-        InputKind::IsCameraRay => flag(flags::CAMERA),
-        InputKind::IsShadowRay => flag(flags::SHADOW),
-        InputKind::IsDiffuseRay => flag(flags::DIFFUSE),
-        InputKind::IsGlossyRay => flag(flags::GLOSSY),
-        InputKind::IsSingularRay => flag(flags::SINGULAR),
-        InputKind::IsReflectionRay => flag(flags::REFLECT),
-        InputKind::IsTransmissionRay => flag(flags::TRANSMIT),
-        InputKind::RayLength => path.ray_length,
-        InputKind::RayDepth => f32::from(path.bounce),
-        InputKind::DiffuseDepth => f32::from(path.diffuse),
-        InputKind::GlossyDepth => f32::from(path.glossy),
-        InputKind::TransparentDepth => f32::from(path.transparent),
-        InputKind::TransmissionDepth => f32::from(path.transmission),
-        _ => return None,
-    })
-}
-
-/// Change of world position with u and v of a triangle with these UVs; zero where UVs collapse.
-fn position_gradients(corners: [Vec3; 3], uv: [Vec2; 3]) -> [Vec3; 2] {
-    let [e1, e2] = [corners[1] - corners[0], corners[2] - corners[0]];
-    let [d1, d2] = [uv[1] - uv[0], uv[2] - uv[0]];
-    let determinant = d1.perp_dot(d2);
-    let inverse = 1.0 / determinant;
-    if !inverse.is_finite() {
-        return [Vec3::ZERO; 2];
-    }
-    [
-        (e1 * d2.y - e2 * d1.y) * inverse,
-        (e2 * d1.x - e1 * d2.x) * inverse,
-    ]
-}
-
 /// A scene, its tables and how to find a point's mesh.
 struct Source<'a> {
     tables: &'a SurfaceTables,
@@ -178,88 +117,45 @@ impl Source<'_> {
         corners.copied().unwrap_or([Vec4::ZERO; 3])
     }
 
-    fn gradients(&self, point: &SurfacePoint, name: u16) -> [Vec3; 2] {
-        let transform = self.instance(point).transform;
-        let [u, v] = position_gradients(self.corners(point), self.uv(point, name));
-        [
-            transform.transform_vector3(u),
-            transform.transform_vector3(v),
-        ]
+    fn placement(&self, point: &SurfacePoint) -> &SurfacePlacement {
+        &self.tables.placed[point.instance as usize]
+    }
+
+    fn gradients(&self, point: &SurfacePoint, name: u16) -> SurfaceGradients {
+        let (corners, uv) = (self.corners(point), self.uv(point, name));
+        surface_gradients(self.placement(point), corners, uv)
     }
 
     /// Change of the unit shading normal along an axis.
-    fn normal_along(&self, point: &SurfacePoint, part: Part) -> Vec3 {
-        let Some(normals) = self
-            .mesh(point)
-            .corner_normals
+    fn normal_along(&self, point: &SurfacePoint, part: u32) -> Vec3 {
+        let normals = &self.mesh(point).corner_normals;
+        normals
             .get(point.primitive as usize)
-        else {
-            return Vec3::ZERO;
-        };
-        let matrix = self.tables.placed[point.instance as usize].normals;
-        let sum = Vec3::from(matrix * Vec3A::from(linear(point, Part::Value, *normals)));
-        let change = Vec3::from(matrix * Vec3A::from(linear(point, part, *normals)));
-        let length = sum.length();
-        if length <= 0.0 {
-            return Vec3::ZERO;
-        }
-        let sign = if point.backfacing { -1.0 } else { 1.0 };
-        let unit = sum / length;
-        (change - unit * unit.dot(change)) * (sign / length)
+            .map_or(Vec3::ZERO, |normals| {
+                surface_normal_along(point, self.placement(point), *normals, part)
+            })
     }
 
     /// Tangent with its sign: MikkTSpace's where the mesh has it, otherwise along dP/du.
-    fn tangent(&self, point: &SurfacePoint, name: u16) -> (Vec3, f32) {
-        let instance = self.instance(point);
-        let handedness = self.tables.placed[point.instance as usize].handedness;
-        let set = self.tables.uv_set(self.scene, instance.mesh, name);
+    fn tangent(&self, point: &SurfacePoint, name: u16) -> SurfaceTangent {
+        let mesh = self.instance(point).mesh;
+        let set = self.tables.uv_set(self.scene, mesh, name);
         if let Some(corners) = set.and_then(|set| set.tangents.get(point.primitive as usize)) {
-            let tangent = linear(point, Part::Value, *corners);
-            let world = instance.transform.transform_vector3(tangent.truncate());
-            return (unit_or(world, Vec3::ZERO), handedness * corners[0].w);
+            let directions = corners.map(Vec4::truncate);
+            let placement = self.placement(point);
+            return surface_tangent_of_corners(point, placement, directions, corners[0].w);
         }
-        let [u, v] = self.gradients(point, name);
-        let front = if point.backfacing {
-            -point.normal
-        } else {
-            point.normal
-        };
-        let side = u.cross(v).dot(front);
-        let tangent = unit_or(u - front * front.dot(u), Vec3::ZERO);
-        (tangent, if side < 0.0 { -1.0 } else { 1.0 })
+        surface_tangent_of_gradients(point, self.gradients(point, name))
     }
 
-    fn generated(&self, point: &SurfacePoint, part: Part) -> Vec3 {
+    fn generated(&self, point: &SurfacePoint, part: u32) -> Vec3 {
         let mesh = self.mesh(point);
+        let blend = surface_blend(point, part);
         if let Some(corners) = mesh.generated.get(point.primitive as usize) {
-            return linear(point, part, *corners);
+            return surface_linear3(blend, *corners);
         }
-        let object = linear(point, part, self.corners(point));
-        let offset = if part == Part::Value {
-            mesh.generated_origin
-        } else {
-            Vec3::ZERO
-        };
-        let size = mesh.generated_size;
-        let scale = |s: f32| if s != 0.0 { 1.0 / s } else { 0.0 };
-        (object - offset) * Vec3::new(scale(size.x), scale(size.y), scale(size.z))
-    }
-
-    fn window(&self, point: &SurfacePoint, part: Part) -> Vec3 {
-        let view = &self.tables.view;
-        let here = view.window_coordinates(point.position);
-        match part {
-            Part::Value => here,
-            part => view.window_coordinates(point.position + axis(point, part)) - here,
-        }
-    }
-
-    fn camera(&self, point: &SurfacePoint, part: Part) -> Vec3 {
-        let view = &self.tables.view;
-        match part {
-            Part::Value => view.camera_coordinates(point.position),
-            part => view.camera_coordinates_of(axis(point, part)),
-        }
+        let object = surface_linear3(blend, self.corners(point));
+        surface_generated(object, part, mesh.generated_origin, mesh.generated_size)
     }
 
     fn pointiness(&self, point: &SurfacePoint) -> f32 {
@@ -268,7 +164,8 @@ impl Source<'_> {
             return 0.5;
         };
         let vertices = self.mesh(point).indices[point.primitive as usize];
-        linear(point, Part::Value, vertices.map(|v| values[v as usize]))
+        let [a, b, c] = vertices.map(|v| values[v as usize]);
+        surface_linear(surface_blend(point, INPUT_PART_VALUE), a, b, c)
     }
 
     fn material_index(&self, point: &SurfacePoint) -> f32 {
@@ -321,35 +218,38 @@ fn fill_varying(
     rows: &mut Rows,
 ) -> bool {
     use InputKind::*;
-    let part = input.part;
+    let part = input.part.code();
+    let view = source.tables.view;
     match input.kind {
         Uv(name) => each(rows, first, points, |p| {
-            linear(p, part, source.uv(p, name)).to_array()
+            surface_linear2(surface_blend(p, part), source.uv(p, name)).to_array()
         }),
-        Attribute(name) => {
-            each(rows, first, points, |p| {
-                linear(p, part, source.attribute(p, name)).to_array()
-            });
+        Attribute(name) => each(rows, first, points, |p| {
+            let [a, b, c] = source.attribute(p, name).map(|corner| corner.to_array());
+            let blend = surface_blend(p, part);
+            std::array::from_fn::<f32, 4, _>(|k| surface_linear(blend, a[k], b[k], c[k]))
+        }),
+        Normal if input.part != Part::Value => {
+            each3(rows, first, points, |p| source.normal_along(p, part));
         }
-        Position if part == Part::Value => each3(rows, first, points, |p| p.position),
-        Position => each3(rows, first, points, |p| axis(p, part)),
-        Normal if part == Part::Value => each3(rows, first, points, |p| p.normal),
-        Normal => each3(rows, first, points, |p| source.normal_along(p, part)),
         Generated => each3(rows, first, points, |p| source.generated(p, part)),
-        Object => each3(rows, first, points, |p| linear(p, part, source.corners(p))),
-        Camera => each3(rows, first, points, |p| source.camera(p, part)),
-        Window => each3(rows, first, points, |p| source.window(p, part)),
-        Parametric => each(rows, first, points, |p| match part {
-            Part::Value => p.weights.to_array(),
-            Part::AxisA => p.weights_along[0].to_array(),
-            Part::AxisB => p.weights_along[1].to_array(),
+        Object => each3(rows, first, points, |p| {
+            surface_linear3(surface_blend(p, part), source.corners(p))
+        }),
+        Position if input.part == Part::Value => each3(rows, first, points, |p| p.position),
+        Position => each3(rows, first, points, |p| surface_axis(p, part)),
+        Normal => each3(rows, first, points, |p| p.normal),
+        Camera => each3(rows, first, points, |p| surface_camera(view, p, part)),
+        Window => each3(rows, first, points, |p| surface_window(view, p, part)),
+        Parametric => each(rows, first, points, |p| {
+            surface_parametric(p, part).to_array()
         }),
         TrueNormal => each3(rows, first, points, |p| p.true_normal),
         Incoming => each3(rows, first, points, |p| p.outgoing),
-        Tangent(name) => each3(rows, first, points, |p| source.tangent(p, name).0),
-        TangentSign(name) => each1(rows, first, points, |p| source.tangent(p, name).1),
-        DpDu(name) => each3(rows, first, points, |p| source.gradients(p, name)[0]),
-        DpDv(name) => each3(rows, first, points, |p| source.gradients(p, name)[1]),
+        Tangent(name) => each3(rows, first, points, |p| source.tangent(p, name).direction),
+        TangentSign(name) => each1(rows, first, points, |p| source.tangent(p, name).sign),
+        DpDu(name) => each3(rows, first, points, |p| source.gradients(p, name).u),
+        DpDv(name) => each3(rows, first, points, |p| source.gradients(p, name).v),
         _ => return false,
     }
     true
@@ -365,21 +265,20 @@ fn fill_constant(
 ) {
     use InputKind::*;
     match kind {
-        Backfacing => each1(rows, first, points, |p| f32::from(u8::from(p.backfacing))),
+        Backfacing => each1(rows, first, points, |p| p.backfacing as f32),
         Pointiness => each1(rows, first, points, |p| source.pointiness(p)),
         RandomPerIsland => each1(rows, first, points, |p| source.island(p)),
         ObjectLocation => {
-            each3(rows, first, points, |p| {
-                source.instance(p).transform.translation.into()
-            });
+            each3(rows, first, points, |p| source.placement(p).origin);
         }
         ObjectColor => each3(rows, first, points, |p| source.instance(p).color.truncate()),
         ObjectAlpha => each1(rows, first, points, |p| source.instance(p).color.w),
         ObjectIndex => each1(rows, first, points, |p| source.instance(p).pass_index),
         ObjectRandom => each1(rows, first, points, |p| source.instance(p).random),
         MaterialIndex => each1(rows, first, points, |p| source.material_index(p)),
-        _ => each1(rows, first, points, |p| {
-            path_quantity(kind, &p.path).unwrap_or(0.0)
-        }),
+        _ => {
+            let (code, _) = kind.code();
+            each1(rows, first, points, |p| path_quantity(code, p.path));
+        }
     }
 }

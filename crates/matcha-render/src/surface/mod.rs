@@ -6,7 +6,6 @@
 //! that the program reads. [`fill_background`] does that for directions that leave the scene.
 
 mod background;
-pub mod cone;
 mod fill;
 mod island;
 mod point;
@@ -16,7 +15,8 @@ mod tables;
 mod tests;
 mod view;
 
+pub use crate::device::surface_path::PathInfo;
+pub use crate::device::surface_point::SurfacePoint;
+pub use crate::device::surface_view::CameraView as View;
 pub use background::{BackgroundRay, fill_background};
-pub use point::{PathInfo, SurfacePoint};
 pub use tables::{SurfaceTables, material_of};
-pub use view::View;

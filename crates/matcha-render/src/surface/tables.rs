@@ -2,28 +2,21 @@
 
 use super::island::random_per_island;
 use super::pointiness::pointiness;
-use super::view::View;
+use crate::device::mapping::MappingFrame;
+use crate::device::surface_point::SurfacePlacement;
+use crate::device::surface_view::CameraView;
 use crate::scene::{Mesh, Scene, UvSet};
-use glam::{Mat3A, Vec3};
+use glam::Mat3A;
 use matcha_shade::input::InputKind;
 
 /// No such layer on a mesh.
 const MISSING: u16 = u16::MAX;
 
-/// What an instance's transform does to directions.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
-    /// Object normals to world normals: the inverse transpose.
-    pub(super) normals: Mat3A,
-    /// −1 where the transform mirrors.
-    pub(super) handedness: f32,
-}
-
 /// A scene's tables for surfaces.
 #[derive(Clone, Debug)]
 pub struct SurfaceTables {
-    pub(super) view: View,
-    pub(super) placed: Vec<Placed>,
+    pub(super) view: CameraView,
+    pub(super) placed: Vec<SurfacePlacement>,
     /// Layers by mesh and UV name.
     uv_sets: Vec<u16>,
     uv_names: usize,
@@ -38,7 +31,7 @@ pub struct SurfaceTables {
 impl SurfaceTables {
     /// Prepares a scene; `read` are the quantities that its programs read. The scene's indices
     /// must be valid, as [`crate::accel::Accel::build`] checks.
-    pub fn new(scene: &Scene, view: View, read: impl IntoIterator<Item = InputKind>) -> Self {
+    pub fn new(scene: &Scene, view: CameraView, read: impl IntoIterator<Item = InputKind>) -> Self {
         let (mut islands, mut points) = (false, false);
         for kind in read {
             islands |= kind == InputKind::RandomPerIsland;
@@ -123,7 +116,7 @@ impl SurfaceTables {
     }
 }
 
-fn placed(transform: &glam::Affine3A) -> Placed {
+fn placed(transform: &glam::Affine3A) -> SurfacePlacement {
     let matrix = transform.matrix3;
     let determinant = matrix.determinant();
     // The cofactors are the inverse transpose times the determinant, and exist where it is zero.
@@ -140,9 +133,20 @@ fn placed(transform: &glam::Affine3A) -> Placed {
     } else {
         Mat3A::IDENTITY
     };
-    Placed {
-        normals,
+    SurfacePlacement {
+        axes: frame(&matrix),
+        origin: transform.translation.into(),
+        normals: frame(&normals),
         handedness,
+    }
+}
+
+/// A matrix by its columns.
+fn frame(matrix: &Mat3A) -> MappingFrame {
+    MappingFrame {
+        x: matrix.x_axis.into(),
+        y: matrix.y_axis.into(),
+        z: matrix.z_axis.into(),
     }
 }
 
@@ -177,15 +181,4 @@ pub fn material_of(scene: &Scene, instance: u32, triangle: u32) -> Option<u32> {
     let instance = scene.instances.get(instance as usize)?;
     let mesh = scene.meshes.get(instance.mesh as usize)?;
     mesh.material_of(instance, triangle)
-}
-
-/// Unit length, or `fallback` where there is none.
-#[inline(always)]
-pub(super) fn unit_or(v: Vec3, fallback: Vec3) -> Vec3 {
-    let squared = v.length_squared();
-    if squared > f32::MIN_POSITIVE && squared.is_finite() {
-        v / squared.sqrt()
-    } else {
-        fallback
-    }
 }

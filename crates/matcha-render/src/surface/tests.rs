@@ -1,7 +1,7 @@
-use super::cone::{ellipse_axes, spread_after_scattering, width_at};
 use super::*;
 use crate::accel::{Accel, Hit, Ray};
 use crate::camera::prepare;
+use crate::device::surface_cone::{cone_ellipse, cone_spread_after, cone_width_at};
 use crate::integrator::path::flags;
 use crate::scene::{
     Camera, Instance, Material, Mesh, MeshAttribute, Scene, Shader, UvSet, Visibility,
@@ -116,7 +116,7 @@ fn hit_from(scene: &Scene, origin: Vec3, direction: Vec3) -> SurfacePoint {
 
 #[test]
 fn a_head_on_footprint_is_a_circle() {
-    let [a, b] = ellipse_axes(Vec3::NEG_Z, Vec3::Z, 0.2);
+    let [a, b] = cone_ellipse(Vec3::NEG_Z, Vec3::Z, 0.2);
     assert!((a.length() - 0.1).abs() < 1e-6 && (b.length() - 0.1).abs() < 1e-6);
     assert!(a.dot(b).abs() < 1e-7 && a.z.abs() < 1e-7);
 }
@@ -125,21 +125,21 @@ fn a_head_on_footprint_is_a_circle() {
 fn a_slanted_footprint_is_longer_by_the_cosine() {
     for degrees in [10.0f32, 45.0, 80.0] {
         let angle = degrees.to_radians();
-        let [a, b] = ellipse_axes(Vec3::new(angle.sin(), 0.0, -angle.cos()), Vec3::Z, 2.0);
+        let [a, b] = cone_ellipse(Vec3::new(angle.sin(), 0.0, -angle.cos()), Vec3::Z, 2.0);
         assert!((a.length() - 1.0 / angle.cos()).abs() < 1e-4, "{degrees}");
         assert!((b.length() - 1.0).abs() < 1e-5);
         assert!(a.y.abs() < 1e-6 && b.x.abs() < 1e-5, "{a} {b}");
     }
-    let [a, _] = ellipse_axes(Vec3::X, Vec3::Z, 2.0);
+    let [a, _] = cone_ellipse(Vec3::X, Vec3::Z, 2.0);
     assert!(a.is_finite(), "edge-on stays finite");
 }
 
 #[test]
 fn cones_grow() {
-    assert_eq!(width_at(0.5, 0.1, 10.0), 1.5);
-    let mirror = spread_after_scattering(0.01, 0.0, false);
-    let glossy = spread_after_scattering(0.01, 0.1, false);
-    let diffuse = spread_after_scattering(0.01, 0.0, true);
+    assert_eq!(cone_width_at(0.5, 0.1, 10.0), 1.5);
+    let mirror = cone_spread_after(0.01, 0.0, false);
+    let glossy = cone_spread_after(0.01, 0.1, false);
+    let diffuse = cone_spread_after(0.01, 0.0, true);
     assert!(mirror == 0.01 && mirror < glossy && glossy < diffuse && diffuse <= 1.0);
 }
 
@@ -155,7 +155,7 @@ fn normals_face_the_viewer_on_every_side_and_when_mirrored() {
         for side in [1.0, -1.0] {
             let origin = target + Vec3::new(0.1, 0.2, 3.0) * side * scale.z.signum();
             let point = hit_from(&scene, origin, target - origin);
-            assert_eq!(point.backfacing, side < 0.0, "{scale} {side}");
+            assert_eq!(point.backfacing != 0, side < 0.0, "{scale} {side}");
             assert!(point.true_normal.dot(point.outgoing) > 0.0);
             assert!(point.normal.dot(point.true_normal) > 0.8);
             assert!((point.normal.length() - 1.0).abs() < 1e-5);

@@ -10,6 +10,7 @@ mod srgb;
 #[cfg(test)]
 mod tests;
 
+use crate::device::texture_color::texture_unassociated;
 use crate::scene::{AlphaMode, ColorSpace, Image};
 use matcha_shade::graph::{AlphaHandling, TextureRef};
 use matcha_shade::vm::Textures;
@@ -126,9 +127,7 @@ fn finish(
     for row in colors {
         if divides {
             for (value, &alpha) in row.iter_mut().zip(alpha.iter()) {
-                if alpha != 0.0 && alpha != 1.0 {
-                    *value /= alpha;
-                }
+                *value = texture_unassociated(*value, alpha);
             }
         }
         if image.encoded {

@@ -1,12 +1,38 @@
-//! Filtering: which level, which texels, which weights.
-//!
-//! Texel (i, j) of a level covers [i, i+1) × [j, j+1) in units of texels with v up, so its centre
-//! is at i + 1/2, as in Cycles and OpenImageIO.
+//! Filtering on the processor: reads and sums the texels that `device::texture_filter` names.
 
 use super::Texture;
 use super::pyramid::{Level, Texels};
+use crate::device::texture_filter::*;
+use glam::{Vec2, vec2};
 use matcha_shade::graph::{Interpolation, TextureRef};
 use matcha_shade::source::Extension;
+
+/// A look-up's settings as device code knows them.
+#[derive(Clone, Copy)]
+struct Look {
+    /// One of `TEXTURE_CLOSEST`, `TEXTURE_LINEAR`, `TEXTURE_CUBIC`.
+    filter: u32,
+    /// One of `TEXTURE_REPEAT` and its siblings.
+    wrap: u32,
+}
+
+impl Look {
+    fn new(texture: &TextureRef) -> Self {
+        Self {
+            filter: match texture.interpolation {
+                Interpolation::Closest => TEXTURE_CLOSEST,
+                Interpolation::Linear => TEXTURE_LINEAR,
+                Interpolation::Cubic | Interpolation::Smart => TEXTURE_CUBIC,
+            },
+            wrap: match texture.extension {
+                Extension::Repeat => TEXTURE_REPEAT,
+                Extension::Extend => TEXTURE_EXTEND,
+                Extension::Clip => TEXTURE_CLIP,
+                Extension::Mirror => TEXTURE_MIRROR,
+            },
+        }
+    }
+}
 
 /// Where a group of points looks an image up; every row has as many numbers as there are points.
 pub(super) struct Points<'a> {
@@ -40,60 +66,35 @@ impl Texture {
         let [u, v] = points.uv.map(|row| &row[..n]);
         let [[au, av], [bu, bv]] = points.axes.map(|axis| axis.map(|row| &row[..n]));
         let [r, g, b, a] = out.map(|row| &mut row[..n]);
+        let look = Look::new(texture);
+        let size = vec2(self.levels[0].width as f32, self.levels[0].height as f32);
+        let last = self.levels.len() as u32 - 1;
         for i in 0..n {
             let level = if texture.no_footprint {
                 0.0
             } else {
-                self.level([au[i], av[i]], [bu[i], bv[i]])
+                texture_level(vec2(au[i], av[i]), vec2(bu[i], bv[i]), size, last)
             };
-            [r[i], g[i], b[i], a[i]] = self.filter(texture, [u[i], v[i]], level);
-        }
-    }
-
-    /// Level for a footprint with these half axes in texture coordinates: that of which a texel is
-    /// as large as the SHORTER one, so that nothing is blurred beyond the footprint; what the long
-    /// one would need more is left to the samples of a pixel. 0 where an axis is zero or no number.
-    #[inline(always)]
-    pub(super) fn level(&self, a: [f32; 2], b: [f32; 2]) -> f32 {
-        let (width, height) = (self.levels[0].width as f32, self.levels[0].height as f32);
-        let squared = |axis: [f32; 2]| {
-            let (x, y) = (axis[0] * width, axis[1] * height);
-            x * x + y * y
-        };
-        let (a, b) = (squared(a), squared(b));
-        let least = if a < b { a } else { b };
-        // False where one of them is no number.
-        if a + b >= least && least > 1.0 {
-            (0.5 * log2(least)).min((self.levels.len() - 1) as f32)
-        } else {
-            0.0
+            [r[i], g[i], b[i], a[i]] = self.filter(look, vec2(u[i], v[i]), level);
         }
     }
 
     /// The filtered texel at a fractional level, encoded as it is stored.
     #[inline(always)]
-    pub(super) fn filter(&self, texture: &TextureRef, uv: [f32; 2], level: f32) -> [f32; 4] {
-        if !(uv[0].is_finite() && uv[1].is_finite()) {
+    fn filter(&self, look: Look, uv: Vec2, level: f32) -> [f32; 4] {
+        if !texture_is_place(uv) {
             return [0.0; 4];
         }
-        let finer = (level as usize).min(self.levels.len() - 1);
-        let fraction = level - finer as f32;
-        let first = self.levels[finer].filter(texture, uv, finer);
-        if fraction <= 0.0 || finer + 1 >= self.levels.len() {
+        let uv = [uv.x, uv.y].map(|c| texture_unrepeated(c, look.wrap));
+        let levels = texture_levels(level, self.levels.len() as u32 - 1);
+        let finer = levels.finer as usize;
+        let first = self.levels[finer].filter(look, uv, finer);
+        if levels.fraction <= 0.0 {
             return first;
         }
-        let second = self.levels[finer + 1].filter(texture, uv, finer + 1);
-        std::array::from_fn(|c| first[c] + (second[c] - first[c]) * fraction)
+        let second = self.levels[finer + 1].filter(look, uv, finer + 1);
+        std::array::from_fn(|c| first[c] + (second[c] - first[c]) * levels.fraction)
     }
-}
-
-/// log₂ with an error below 0.01 of a level: exponent and a parabola through the mantissa.
-#[inline(always)]
-fn log2(x: f32) -> f32 {
-    let bits = x.to_bits();
-    let exponent = ((bits >> 23) as i32 - 127) as f32;
-    let m = f32::from_bits((bits & 0x007f_ffff) | 0x3f80_0000) - 1.0;
-    exponent + m + m * (1.0 - m) * (0.346_6 - 0.031 * (2.0 * m - 1.0))
 }
 
 /// A texel's colour as floats.
@@ -117,15 +118,15 @@ impl Read for [[f32; 4]] {
 }
 
 impl Level {
-    /// Filters one level; `index` is its number, for filters that only magnify.
+    /// Filters one level at unrepeated coordinates; `index` is its number, for filters that only magnify.
     #[inline(always)]
-    fn filter(&self, texture: &TextureRef, uv: [f32; 2], index: usize) -> [f32; 4] {
+    fn filter(&self, look: Look, uv: [f32; 2], index: usize) -> [f32; 4] {
         match &self.texels {
             Texels::Bytes(texels) => {
-                let sum = self.filter_texels(texels.as_slice(), texture, uv, index);
+                let sum = self.filter_texels(texels.as_slice(), look, uv, index);
                 sum.map(|value| value * (1.0 / 255.0))
             }
-            Texels::Floats(texels) => self.filter_texels(texels.as_slice(), texture, uv, index),
+            Texels::Floats(texels) => self.filter_texels(texels.as_slice(), look, uv, index),
         }
     }
 
@@ -133,25 +134,25 @@ impl Level {
     fn filter_texels<T: Read + ?Sized>(
         &self,
         texels: &T,
-        texture: &TextureRef,
+        look: Look,
         uv: [f32; 2],
         index: usize,
     ) -> [f32; 4] {
-        let mode = texture.extension;
-        match texture.interpolation {
-            Interpolation::Closest => {
-                let x = axis::<1>(uv[0], self.width, mode, 0.0, |_| [1.0]);
-                let y = axis::<1>(uv[1], self.height, mode, 0.0, |_| [1.0]);
+        let wrap = look.wrap;
+        match look.filter {
+            TEXTURE_CLOSEST => {
+                let x = axis::<1>(uv[0], self.width, wrap, 0.0, |_| [1.0]);
+                let y = axis::<1>(uv[1], self.height, wrap, 0.0, |_| [1.0]);
                 self.sum(texels, &x, &y)
             }
-            Interpolation::Cubic | Interpolation::Smart if index == 0 => {
-                let x = axis::<4>(uv[0], self.width, mode, 1.5, b_spline);
-                let y = axis::<4>(uv[1], self.height, mode, 1.5, b_spline);
+            TEXTURE_CUBIC if index == 0 => {
+                let x = axis::<4>(uv[0], self.width, wrap, 1.5, texture_b_spline);
+                let y = axis::<4>(uv[1], self.height, wrap, 1.5, texture_b_spline);
                 self.sum(texels, &x, &y)
             }
             _ => {
-                let x = axis::<2>(uv[0], self.width, mode, 0.5, |t| [1.0 - t, t]);
-                let y = axis::<2>(uv[1], self.height, mode, 0.5, |t| [1.0 - t, t]);
+                let x = axis::<2>(uv[0], self.width, wrap, 0.5, |t| [1.0 - t, t]);
+                let y = axis::<2>(uv[1], self.height, wrap, 0.5, |t| [1.0 - t, t]);
                 self.sum(texels, &x, &y)
             }
         }
@@ -180,19 +181,6 @@ impl Level {
     }
 }
 
-/// Weights of the cubic B-spline at a fraction between the two middle texels of four.
-#[inline(always)]
-fn b_spline(t: f32) -> [f32; 4] {
-    let s = 1.0 - t;
-    let sixth = 1.0 / 6.0;
-    [
-        sixth * s * s * s,
-        sixth * (4.0 + t * t * (3.0 * t - 6.0)),
-        sixth * (4.0 + s * s * (3.0 * s - 6.0)),
-        sixth * t * t * t,
-    ]
-}
-
 /// Texels along one axis and their weights; those outside weigh nothing where an image is clipped.
 struct Axis<const N: usize> {
     texel: [u32; N],
@@ -201,52 +189,22 @@ struct Axis<const N: usize> {
 
 #[inline(always)]
 fn axis<const N: usize>(
-    coordinate: f32,
+    unrepeated: f32,
     size: u32,
-    mode: Extension,
+    wrap: u32,
     back: f32,
     weights: impl Fn(f32) -> [f32; N],
 ) -> Axis<N> {
-    // Repetition is taken off first: it keeps the product small and exact.
-    let whole = match mode {
-        Extension::Repeat => coordinate.floor(),
-        Extension::Mirror => 2.0 * (0.5 * coordinate).floor(),
-        Extension::Extend | Extension::Clip => 0.0,
-    };
-    let at = ((coordinate - whole) * size as f32 - back).clamp(-1e8, 1e8);
-    let floor = at.floor();
-    let mut weight = weights(at - floor);
-    let first = floor as i32;
-    let size = size as i32;
+    let tap = texture_tap(unrepeated, size, back);
+    let mut weight = weights(tap.fraction);
     let mut texel = [0; N];
     for (k, texel) in texel.iter_mut().enumerate() {
-        let i = first + k as i32;
-        *texel = match mode {
-            Extension::Repeat => wrap(i, size),
-            Extension::Mirror => {
-                let i = wrap(i, 2 * size);
-                if i < size { i } else { 2 * size - 1 - i }
-            }
-            Extension::Extend => i.clamp(0, size - 1),
-            Extension::Clip => {
-                if !(0..size).contains(&i) {
-                    weight[k] = 0.0;
-                }
-                i.clamp(0, size - 1)
-            }
-        } as u32;
+        let found = texture_texel(tap.first + k as i32, size as i32, wrap);
+        if found == TEXTURE_OUTSIDE {
+            weight[k] = 0.0;
+        } else {
+            *texel = found as u32;
+        }
     }
     Axis { texel, weight }
-}
-
-/// Into 0..size; without a division where at most one period is off.
-#[inline(always)]
-fn wrap(i: i32, size: i32) -> i32 {
-    let i = if i < 0 { i + size } else { i };
-    let i = if i >= size { i - size } else { i };
-    if (0..size).contains(&i) {
-        i
-    } else {
-        i.rem_euclid(size)
-    }
 }

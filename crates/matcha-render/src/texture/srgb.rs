@@ -1,20 +1,24 @@
-//! The sRGB transfer function (IEC 61966-2-1).
+//! The sRGB transfer function by the processor's exact powers, and by a table of them.
+
+use crate::device::texture_color::{
+    SRGB_EXPONENT, SRGB_LINE_END, SRGB_LINE_SLOPE, SRGB_OFFSET, SRGB_SCALE,
+};
 
 /// Linear light of an encoded number, both 0 to 1 and beyond.
 pub(super) fn to_linear(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 {
-        encoded.max(0.0) / 12.92
+    if encoded <= SRGB_LINE_END {
+        encoded.max(0.0) / SRGB_LINE_SLOPE
     } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
+        ((encoded + SRGB_OFFSET) / SRGB_SCALE).powf(SRGB_EXPONENT)
     }
 }
 
 /// The inverse of [`to_linear`].
 pub(super) fn to_encoded(linear: f32) -> f32 {
     if linear <= 0.003_130_8 {
-        linear.max(0.0) * 12.92
+        linear.max(0.0) * SRGB_LINE_SLOPE
     } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
+        SRGB_SCALE * linear.powf(1.0 / SRGB_EXPONENT) - SRGB_OFFSET
     }
 }
 

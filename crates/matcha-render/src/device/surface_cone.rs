@@ -3,10 +3,12 @@
 //! Akenine-Möller, Crassin, Boksansky, Belcour, Panteleev and Wright 2021, "Improved Shader and
 //! Texture Level of Detail Using Ray Cones" (JCGT 10(1)).
 
+use crate::device::mapping::mapping_frame;
 use glam::Vec3;
+use matcha_shade::device::math::{abs, clamp, cross, dot, max, min, sqrt};
 
 /// Cosine below which a surface counts as seen edge-on: keeps the long axis finite.
-const LEAST_COSINE: f32 = 1e-3;
+pub const CONE_LEAST_COSINE: f32 = 1e-3;
 
 /// Growth of a cone per metre after a diffuse bounce. A hundred samples a pixel that share the
 /// hemisphere are about this far apart (2π/128 steradians each).
@@ -14,8 +16,8 @@ pub const DIFFUSE_SPREAD: f32 = 0.22;
 
 /// Width of a cone after `distance` (section 2: w' = w + γ t, for small γ).
 #[inline(always)]
-pub fn width_at(width: f32, spread: f32, distance: f32) -> f32 {
-    (width + spread * distance).abs()
+pub fn cone_width_at(width: f32, spread: f32, distance: f32) -> f32 {
+    abs(width + spread * distance)
 }
 
 /// Half axes, in world space, of the ellipse in which a cone of a diameter `width` around the unit
@@ -25,19 +27,19 @@ pub fn width_at(width: f32, spread: f32, distance: f32) -> f32 {
 /// Section 3 of the paper with its erratum: the long half axis is r/cos θ, the short one r.
 /// (The printed listing divides by a length that vanishes where the surface is seen head-on.)
 #[inline(always)]
-pub fn ellipse_axes(direction: Vec3, normal: Vec3, width: f32) -> [Vec3; 2] {
-    let cosine = direction.dot(normal);
+pub fn cone_ellipse(direction: Vec3, normal: Vec3, width: f32) -> [Vec3; 2] {
+    let cosine = dot(direction, normal);
     let along = direction - normal * cosine;
-    let sine_squared = along.length_squared();
+    let sine_squared = dot(along, along);
     let unit = if sine_squared > 1e-8 {
-        along / sine_squared.sqrt()
+        along / sqrt(sine_squared)
     } else {
-        normal.any_orthonormal_vector()
+        mapping_frame(normal).y
     };
     let radius = 0.5 * width;
     [
-        unit * (radius / cosine.abs().max(LEAST_COSINE)),
-        normal.cross(unit) * radius,
+        unit * (radius / max(abs(cosine), CONE_LEAST_COSINE)),
+        cross(normal, unit) * radius,
     ]
 }
 
@@ -45,11 +47,19 @@ pub fn ellipse_axes(direction: Vec3, normal: Vec3, width: f32) -> [Vec3; 2] {
 /// roughness, ignored where it is diffuse. A sharp mirror or glass keeps the spread; a lobe adds in
 /// proportion to its width until it is as wide as a diffuse one's.
 #[inline(always)]
-pub fn spread_after_scattering(spread: f32, alpha: f32, diffuse: bool) -> f32 {
+pub fn cone_spread_after(spread: f32, alpha: f32, diffuse: bool) -> f32 {
     let added = if diffuse {
         1.0
     } else {
-        (2.0 * alpha).clamp(0.0, 1.0)
+        clamp(2.0 * alpha, 0.0, 1.0)
     };
-    (spread.abs() + DIFFUSE_SPREAD * added).min(1.0)
+    min(abs(spread) + DIFFUSE_SPREAD * added, 1.0)
+}
+
+/// Half axes of a cone's circle on the sphere of directions, around the unit `direction`.
+#[inline(always)]
+pub fn cone_circle(direction: Vec3, spread: f32) -> [Vec3; 2] {
+    let frame = mapping_frame(direction);
+    let radius = 0.5 * spread;
+    [frame.x * radius, frame.y * radius]
 }
