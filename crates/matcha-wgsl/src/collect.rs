@@ -1,11 +1,15 @@
 //! The items of all modules, and the one namespace that they share in WGSL.
 
+mod view;
+
 use crate::diagnostic::{Fault, Faults, Place, Problem, outside};
+use crate::layout::Structs;
 use crate::lower::integer_literal;
 use crate::prelude::{intrinsic, is_intrinsics_module};
 use crate::translation::Module;
 use crate::types::Ty;
-use std::collections::HashMap;
+use crate::view::View;
+use std::collections::{BTreeMap, HashMap};
 use syn::spanned::Spanned;
 
 /// An item to translate.
@@ -31,7 +35,8 @@ pub(crate) struct Signature {
 /// What names mean.
 #[derive(Default)]
 pub(crate) struct Scope {
-    pub structs: HashMap<String, Vec<(String, Ty)>>,
+    pub structs: Structs,
+    pub views: BTreeMap<String, View>,
     pub constants: HashMap<String, Ty>,
     pub functions: HashMap<String, Signature>,
     lengths: HashMap<String, usize>,
@@ -66,15 +71,25 @@ pub(crate) fn collect(modules: &[Module], faults: &mut Faults) -> (Vec<Item>, Sc
     for item in &items {
         faults.keep(&item.path, scope.describe(item));
     }
+    let views: Vec<View> = scope.views.values().cloned().collect();
+    for view in views {
+        let laid_out = faults.keep(&view.place.path, scope.lay_out(&view));
+        scope.views.extend(laid_out.map(|v| (v.name.clone(), v)));
+    }
     for (path, function) in &stand_ins {
         faults.keep(path, scope.stand_in(function));
     }
-    items.retain(|item| !is_intrinsic(item));
+    items.retain(|item| !is_intrinsic(item) && !is_view(item));
     (items, scope)
 }
 
 fn is_intrinsic(item: &Item) -> bool {
     matches!(&item.kind, ItemKind::Function(f) if intrinsic(&f.sig.ident.to_string()).is_some())
+}
+
+/// Views are not written into WGSL.
+fn is_view(item: &Item) -> bool {
+    matches!(&item.kind, ItemKind::Struct(s) if view::is_view(s))
 }
 
 /// The kind of an item; `None` where it has no part in WGSL.
@@ -167,17 +182,31 @@ impl Scope {
         {
             self.lengths.insert(name.clone(), length as usize);
         }
-        if let ItemKind::Struct(_) = item.kind {
-            self.structs.insert(name.clone(), Vec::new());
-        }
         let path = item.path.clone();
-        self.defined.insert(name, Place { path, line });
+        let place = Place { path, line };
+        self.defined.insert(name.clone(), place.clone());
+        // Their fields may name each other, so that the names come first.
+        if is_view(item) {
+            let view = View {
+                name: name.clone(),
+                fields: Vec::new(),
+                header_words: 0,
+                place,
+            };
+            self.views.insert(name, view);
+        } else if let ItemKind::Struct(_) = item.kind {
+            self.structs.insert(name, Vec::new());
+        }
         Ok(())
     }
 
     /// Resolves the types in an item's face.
     fn describe(&mut self, item: &Item) -> Result<(), Fault> {
         match &item.kind {
+            ItemKind::Struct(s) if is_view(item) => {
+                let view = self.view(s, &item.path)?;
+                self.views.insert(view.name.clone(), view);
+            }
             ItemKind::Struct(s) => {
                 let fields = self.fields(s)?;
                 self.structs.insert(s.ident.to_string(), fields);
@@ -240,7 +269,7 @@ impl Scope {
 
     fn signature(&self, sig: &syn::Signature) -> Result<Signature, Fault> {
         let line = sig.ident.span().start().line;
-        if !sig.generics.params.is_empty() {
+        if sig.generics.lifetimes().count() < sig.generics.params.len() {
             return Err(outside(
                 line,
                 "a generic function",
@@ -253,26 +282,37 @@ impl Scope {
         let mut parameters = Vec::new();
         for input in &sig.inputs {
             match input {
-                syn::FnArg::Typed(typed) => parameters.push(self.ty(&typed.ty)?),
+                syn::FnArg::Typed(typed) => parameters.push(self.parameter(&typed.ty)?),
                 syn::FnArg::Receiver(_) => {
                     return Err(outside(line, "`self`", "write a free function"));
                 }
             }
         }
-        let syn::ReturnType::Type(_, result) = &sig.output else {
-            return Err(outside(
-                line,
-                "a function without result",
-                "return a value: there are no references to write through",
-            ));
+        let writes = |ty: &Ty| matches!(ty, Ty::Reference { mutable: true, .. });
+        let result = match &sig.output {
+            syn::ReturnType::Type(_, result) => self.ty(result)?,
+            syn::ReturnType::Default if parameters.iter().any(writes) => Ty::Unit,
+            syn::ReturnType::Default => {
+                return Err(outside(
+                    line,
+                    "a function without result",
+                    "return a value, or write through a `&mut` parameter",
+                ));
+            }
         };
-        let result = self.ty(result)?;
         Ok(Signature { parameters, result })
     }
 
     /// A type of the subset.
     pub fn ty(&self, ty: &syn::Type) -> Result<Ty, Fault> {
         let line = ty.span().start().line;
+        if self.view_name(ty).is_some() {
+            return Err(outside(
+                line,
+                "a view in this place",
+                "views are parameters, by value",
+            ));
+        }
         match ty {
             syn::Type::Path(path) if path.qself.is_none() => {
                 let segment = path.path.segments.last();
@@ -299,11 +339,15 @@ impl Scope {
             }
             syn::Type::Paren(inner) => self.ty(&inner.elem),
             syn::Type::Group(inner) => self.ty(&inner.elem),
-            syn::Type::Reference(_) => Err(outside(line, "a reference", "pass and return values")),
+            syn::Type::Reference(_) => Err(outside(
+                line,
+                "a reference in this place",
+                "references are parameters; return values",
+            )),
             syn::Type::Slice(_) => Err(outside(
                 line,
                 "a slice",
-                "use a fixed array, or an accessor of the host layer",
+                "use a fixed array, or a view's field",
             )),
             syn::Type::Tuple(_) => Err(outside(line, "a tuple", "name a struct")),
             _ => Err(outside(

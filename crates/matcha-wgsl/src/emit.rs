@@ -5,11 +5,13 @@
 //! effects, does not notice.
 
 mod block;
+mod stored;
 
 use crate::ir::{Expr, ExprKind, FunctionBody};
 use crate::names::{LocalNames, escaped};
 use crate::prelude::{Intrinsic, intrinsic};
 use crate::types::{Inference, Ty};
+use crate::view::count_function;
 
 /// A line of WGSL and the line of Rust that it is made from.
 pub(crate) type Line = (String, usize);
@@ -44,15 +46,21 @@ pub(crate) fn function(function: &FunctionBody, inference: &Inference) -> Vec<Li
     let mut emitter = Emitter::new(inference);
     let locals = function.locals.iter();
     for local in locals {
-        let name = emitter.names.fresh(&local.name);
-        emitter.locals.push((name, local.mutable));
+        let name = match local.ty {
+            Ty::View(_) => String::new(),
+            _ => emitter.names.fresh(&local.name),
+        };
+        emitter.locals.push((name, local.variable));
         emitter.local_types.push(inference.settled(&local.ty));
     }
     let mut copies = Vec::new();
     let mut parameters = Vec::new();
     for (id, local) in function.locals[..function.parameters].iter().enumerate() {
+        if let Ty::View(_) = local.ty {
+            continue;
+        }
         let mut name = emitter.locals[id].0.clone();
-        if local.mutable {
+        if local.variable {
             // Parameters of WGSL are not to be assigned to.
             let copy = name;
             name = emitter.names.fresh(&local.name);
@@ -61,11 +69,11 @@ pub(crate) fn function(function: &FunctionBody, inference: &Inference) -> Vec<Li
         parameters.push(format!("{name}: {}", local.ty.wgsl()));
     }
     let name = escaped(&function.name);
-    let head = format!(
-        "fn {name}({}) -> {} {{",
-        parameters.join(", "),
-        function.result.wgsl()
-    );
+    let result = match &function.result {
+        Ty::Unit => String::new(),
+        result => format!(" -> {}", result.wgsl()),
+    };
+    let head = format!("fn {name}({}){result} {{", parameters.join(", "));
     emitter.push(function.line, &head);
     emitter.depth += 1;
     for copy in copies {
@@ -118,9 +126,18 @@ impl<'a> Emitter<'a> {
             ExprKind::Bool(value) => value.to_string(),
             ExprKind::Local(id) => self.locals[*id].0.clone(),
             ExprKind::Constant(name) => escaped(name),
+            ExprKind::Deref(id) => format!("(*{})", self.locals[*id].0),
+            ExprKind::Address(id) => format!("&{}", self.locals[*id].0),
+            ExprKind::Stored {
+                view,
+                field,
+                address,
+            } => self.stored(view, field, address, &it.ty),
+            ExprKind::Count { view, field } => format!("{}()", count_function(view, field)),
             ExprKind::Call {
                 function,
                 arguments,
+                ..
             } => self.call(function, &it.ty, arguments),
             ExprKind::Construct(parts) => self.construct(&it.ty, parts),
             ExprKind::Repeat(element) => self.repeat(&it.ty, element),
@@ -160,7 +177,7 @@ impl<'a> Emitter<'a> {
             }
         }
         let is_operator = match &inner.kind {
-            ExprKind::Unary(..) | ExprKind::Binary(..) => true,
+            ExprKind::Unary(..) | ExprKind::Binary(..) | ExprKind::Address(_) => true,
             ExprKind::Call { function, .. } => {
                 matches!(intrinsic(function), Some(Intrinsic::Operator(_)))
             }
@@ -240,12 +257,13 @@ impl<'a> Emitter<'a> {
         if let ExprKind::Integer { value, .. } = &index.kind {
             return format!("{}[{value}]", self.operand(of));
         }
-        let index = match &index.kind {
-            // Rust needs `as usize`, WGSL does not.
-            ExprKind::Cast(inner) if self.ty(&inner.ty) == Ty::U32 => self.expression(inner),
-            _ => self.expression(index),
+        let index = {
+            let index = self.without_cast(index);
+            self.expression(index)
         };
-        let is_variable = crate::lower::root(of).is_some_and(|id| self.locals[id].1);
+        let is_variable = crate::lower::root(of).is_some_and(|id| {
+            self.locals[id].1 || matches!(self.local_types[id], Ty::Reference { .. })
+        });
         if is_variable || matches!(of.kind, ExprKind::Constant(_)) {
             return format!("{}[{index}]", self.operand(of));
         }
@@ -254,6 +272,14 @@ impl<'a> Emitter<'a> {
         let name = self.names.fresh("indexed");
         self.push(of.line, &format!("var {name} = {text};"));
         format!("{name}[{index}]")
+    }
+
+    /// An index without its `as usize`, which Rust needs and WGSL does not.
+    fn without_cast<'e>(&self, index: &'e Expr) -> &'e Expr {
+        match &index.kind {
+            ExprKind::Cast(inner) if self.ty(&inner.ty) == Ty::U32 => inner,
+            _ => index,
+        }
     }
 
     /// The name of a variable that statements in front have given the value.

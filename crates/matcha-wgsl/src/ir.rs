@@ -9,7 +9,8 @@ pub(crate) type LocalId = usize;
 pub(crate) struct Local {
     pub name: String,
     pub ty: Ty,
-    pub mutable: bool,
+    /// It is assigned to, or its address is taken.
+    pub variable: bool,
 }
 
 /// A function.
@@ -44,7 +45,7 @@ pub(crate) enum StatementKind {
         operator: Option<&'static str>,
         value: Expr,
     },
-    /// An `if`, or a block, without value.
+    /// An `if`, or a block, without value, or a call that writes.
     Run(Expr),
     /// A loop; without a condition, `loop`.
     While {
@@ -53,7 +54,7 @@ pub(crate) enum StatementKind {
     },
     Break,
     Continue,
-    Return(Expr),
+    Return(Option<Expr>),
 }
 
 pub(crate) struct Expr {
@@ -74,6 +75,23 @@ pub(crate) enum ExprKind {
     Call {
         function: String,
         arguments: Vec<Expr>,
+        /// It has a parameter that it writes through.
+        writes: bool,
+    },
+    /// What a parameter refers to.
+    Deref(LocalId),
+    /// A reference to a local.
+    Address(LocalId),
+    /// Words of a view's field.
+    Stored {
+        view: String,
+        field: String,
+        address: WordAddress,
+    },
+    /// Elements of a view's field.
+    Count {
+        view: String,
+        field: String,
     },
     /// A value of the type from its parts; no parts: zeros.
     Construct(Vec<Expr>),
@@ -91,4 +109,40 @@ pub(crate) enum ExprKind {
         otherwise: Option<Block>,
     },
     Block(Block),
+}
+
+/// A word's index in a buffer: constant words, and multiples of computed indices.
+pub(crate) struct WordAddress {
+    pub offset: u32,
+    pub terms: Vec<(Expr, u32)>,
+}
+
+impl Expr {
+    /// The expressions that it is made from, without those in blocks.
+    pub fn parts(&self) -> Vec<&Expr> {
+        match &self.kind {
+            ExprKind::Call { arguments, .. } | ExprKind::Construct(arguments) => {
+                arguments.iter().collect()
+            }
+            ExprKind::Repeat(of)
+            | ExprKind::Unary(_, of)
+            | ExprKind::Field(of, _)
+            | ExprKind::Cast(of) => vec![of],
+            ExprKind::Binary(_, a, b) | ExprKind::Index(a, b) => vec![a, b],
+            ExprKind::Stored { address, .. } => address.terms.iter().map(|(e, _)| e).collect(),
+            ExprKind::If { condition, .. } => vec![condition],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The blocks that it holds.
+    pub fn blocks(&self) -> Vec<&Block> {
+        match &self.kind {
+            ExprKind::If {
+                then, otherwise, ..
+            } => [then].into_iter().chain(otherwise).collect(),
+            ExprKind::Block(block) => vec![block],
+            _ => Vec::new(),
+        }
+    }
 }

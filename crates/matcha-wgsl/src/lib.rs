@@ -22,11 +22,15 @@
 //! number. Whole numbers and bits are the same everywhere. Nothing is replaced by a builtin
 //! that computes something else.
 
+mod assemble;
 mod check;
 mod collect;
+mod columns;
+mod constant;
 mod diagnostic;
 mod emit;
 mod ir;
+mod layout;
 mod lower;
 mod names;
 mod operations;
@@ -35,10 +39,15 @@ mod prelude;
 mod source;
 mod translation;
 mod types;
+mod view;
 
 pub use check::check;
+pub use columns::Columns;
+pub use constant::Value;
 pub use diagnostic::{Diagnostic, Place, Problem, TranslateError};
+pub use layout::{Layout, LayoutField};
 pub use operations::{DispatchForm, OperandType, Operation, Operations, operations};
 pub use source::Source;
-pub use translation::{Function, Module, Translation, translate};
+pub use translation::{Function, Module, Needed, Translation, translate};
 pub use types::Ty;
+pub use view::{Access, FieldPlace, View, ViewField};

@@ -2,16 +2,20 @@
 //! outside of the subset is refused.
 
 mod call;
+mod effects;
 mod expression;
+mod reference;
 mod statement;
+mod stored;
 
+pub(crate) use effects::writes;
 pub(crate) use statement::root;
 
 use crate::collect::Scope;
 use crate::diagnostic::{Fault, Problem, outside};
 use crate::ir::{Block, Expr, ExprKind, FunctionBody, Local, LocalId, StatementKind};
 use crate::types::{Inference, Ty};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use syn::spanned::Spanned;
 
 /// An item in resolved form, with the global names that it needs.
@@ -19,6 +23,16 @@ pub(crate) struct Lowered<T> {
     pub item: T,
     pub inference: Inference,
     pub uses: BTreeSet<String>,
+    /// What it reads of views by more than a word, by the reading function's name.
+    pub reads: BTreeMap<String, Read>,
+}
+
+/// A read of a value of several words out of a view's field.
+#[derive(Clone)]
+pub(crate) struct Read {
+    pub view: String,
+    pub field: String,
+    pub ty: Ty,
 }
 
 /// One item's translation.
@@ -26,6 +40,7 @@ pub(crate) struct Lowering<'a> {
     scope: &'a Scope,
     inference: Inference,
     uses: BTreeSet<String>,
+    reads: BTreeMap<String, Read>,
     locals: Vec<Local>,
     /// Names in sight, innermost last.
     sight: Vec<HashMap<String, LocalId>>,
@@ -51,6 +66,7 @@ impl<'a> Lowering<'a> {
             scope,
             inference: Inference::default(),
             uses: BTreeSet::new(),
+            reads: BTreeMap::new(),
             locals: Vec::new(),
             sight: vec![HashMap::new()],
             result: Ty::Unit,
@@ -79,6 +95,14 @@ impl<'a> Lowering<'a> {
                 continue;
             };
             let (name, mutable) = simple_pattern(&typed.pat)?;
+            if mutable && matches!(ty, Ty::Reference { .. } | Ty::View(_)) {
+                let line = typed.pat.span().start().line;
+                return Err(outside(
+                    line,
+                    "`mut` of a reference or view",
+                    "a parameter refers to one thing all the time",
+                ));
+            }
             self.bind(name, ty.clone(), mutable);
         }
         for parameter in signature.parameters.iter().chain([&signature.result]) {
@@ -87,6 +111,7 @@ impl<'a> Lowering<'a> {
         let parameters = self.locals.len();
         let body = self.block(&item.block)?;
         self.must_give(&body, &signature.result, line)?;
+        self.must_keep_order(&body)?;
         let locals = std::mem::take(&mut self.locals);
         Ok(self.finished(FunctionBody {
             name,
@@ -103,6 +128,7 @@ impl<'a> Lowering<'a> {
             item,
             inference: self.inference,
             uses: self.uses,
+            reads: self.reads,
         }
     }
 
@@ -116,12 +142,12 @@ impl<'a> Lowering<'a> {
     }
 
     /// A new local, in sight from here on.
-    fn bind(&mut self, name: String, ty: Ty, mutable: bool) -> LocalId {
+    fn bind(&mut self, name: String, ty: Ty, variable: bool) -> LocalId {
         let id = self.locals.len();
         if let Some(innermost) = self.sight.last_mut() {
             innermost.insert(name.clone(), id);
         }
-        self.locals.push(Local { name, ty, mutable });
+        self.locals.push(Local { name, ty, variable });
         id
     }
 
@@ -135,7 +161,7 @@ impl<'a> Lowering<'a> {
             Ty::Struct(name) => {
                 self.uses.insert(name.clone());
             }
-            Ty::Array(of, _) => self.use_type(of),
+            Ty::Array(of, _) | Ty::Reference { of, .. } => self.use_type(of),
             _ => {}
         }
     }

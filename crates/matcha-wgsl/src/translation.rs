@@ -1,14 +1,18 @@
 //! Modules into one source.
 
+use crate::assemble::{Assembler, Assembly, Memory};
 use crate::collect::{Item, ItemKind, Scope, collect};
+use crate::constant::{Value, evaluate};
 use crate::diagnostic::{Fault, Faults, Place, Problem, TranslateError, outside};
 use crate::emit::{self, Line};
 use crate::ir::ExprKind;
-use crate::lower::Lowering;
+use crate::layout::Structs;
+use crate::lower::{Lowering, Read};
 use crate::order::ordered;
 use crate::prelude::{INTRINSICS, Intrinsic};
 use crate::source::Source;
 use crate::types::Ty;
+use crate::view::{Access, FieldPlace, View};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A file of device code.
@@ -51,12 +55,19 @@ pub struct Translation {
     pub source: Source,
     /// The functions, by name in Rust.
     pub functions: BTreeMap<String, Function>,
+    /// The views, by name.
+    pub views: BTreeMap<String, View>,
+    /// Values of the constants, by name; those that call functions are not among them.
+    pub constants: BTreeMap<String, Value>,
+    pub(crate) structs: Structs,
+    pub(crate) struct_places: BTreeMap<String, Place>,
     pieces: Vec<Piece>,
 }
 
 impl Translation {
-    /// Only what the device functions of these names (in Rust) need, and they themselves.
-    pub fn needed<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> Source {
+    /// Only what the device functions, structs and constants of these names (in Rust) need,
+    /// and they themselves.
+    pub fn needed<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> Needed {
         let mut needed: BTreeSet<&str> = names.into_iter().collect();
         // Needs come before what needs them.
         for piece in self.pieces.iter().rev() {
@@ -70,8 +81,60 @@ impl Translation {
             .iter()
             .filter(|p| needed.contains(p.name.as_str()));
         kept.for_each(|piece| piece.write(&mut source));
+        let accesses = self.accesses(|function| needed.contains(function));
+        Needed { source, accesses }
+    }
+
+    /// Functions of the host layer for all views, which give nothing but zeros: with them,
+    /// [`check`](crate::check) takes the translation as it is.
+    pub fn stand_ins(&self) -> Source {
+        let mut source = Source::default();
+        for access in self.accesses(|_| true) {
+            let word = access.word_function();
+            let count = access.count_function();
+            let Some(view) = self.views.get(&access.view) else {
+                continue;
+            };
+            let words = format!("fn {word}(i: u32) -> u32 {{ return i & 0u; }}");
+            source.push(&words, view.place.clone());
+            if access.count {
+                let count = format!("fn {count}() -> u32 {{ return 0u; }}");
+                source.push(&count, view.place.clone());
+            }
+        }
         source
     }
+
+    /// Fields of views of which a function of the host layer is used.
+    fn accesses(&self, is_used: impl Fn(&str) -> bool) -> Vec<Access> {
+        let mut accesses = Vec::new();
+        for view in self.views.values() {
+            for field in &view.fields {
+                let mut access = Access {
+                    view: view.name.clone(),
+                    field: field.name.clone(),
+                    words: false,
+                    count: false,
+                };
+                access.words = is_used(&access.word_function());
+                access.count =
+                    field.place == FieldPlace::Buffer && is_used(&access.count_function());
+                if access.words || access.count {
+                    accesses.push(access);
+                }
+            }
+        }
+        accesses
+    }
+}
+
+/// What some device functions need.
+#[derive(Clone, Debug)]
+pub struct Needed {
+    /// Structs, constants and functions.
+    pub source: Source,
+    /// Fields of views that they read, in the order of the views' names and of their fields.
+    pub accesses: Vec<Access>,
 }
 
 /// Translates modules, which see each other's items by name. All errors of all modules
@@ -83,11 +146,13 @@ pub fn translate(modules: &[Module]) -> Result<Translation, TranslateError> {
     faults.or(())?;
     let mut faults = Faults::default();
     let mut pieces = helpers();
+    let mut reads = BTreeMap::new();
     for item in &items {
-        let piece = faults.keep(&item.path, translate_item(item, &scope));
+        let piece = faults.keep(&item.path, translate_item(item, &scope, &mut reads));
         pieces.extend(piece);
     }
     faults.or(())?;
+    pieces.extend(readers(&reads, &scope));
     let mut faults = Faults::default();
     let needs: Vec<(&str, &BTreeSet<String>)> =
         pieces.iter().map(|p| (p.name.as_str(), &p.uses)).collect();
@@ -109,9 +174,16 @@ pub fn translate(modules: &[Module]) -> Result<Translation, TranslateError> {
         .filter_map(|(name, i)| offered(name, *i, &scope));
     let functions = written.chain(offered);
     let functions = functions.map(|f| (f.name.clone(), f)).collect();
+    let constants = constants(&items, &pieces, &scope);
+    let place = |name: &String| Some((name.clone(), scope.defined.get(name)?.clone()));
+    let struct_places = scope.structs.keys().filter_map(place).collect();
     faults.or(Translation {
         source,
         functions,
+        views: scope.views,
+        constants,
+        structs: scope.structs,
+        struct_places,
         pieces,
     })
 }
@@ -153,7 +225,65 @@ fn helpers() -> Vec<Piece> {
     INTRINSICS.iter().filter_map(helper).collect()
 }
 
-fn translate_item(item: &Item, scope: &Scope) -> Result<Piece, Fault> {
+/// The functions that read values of several words out of views.
+fn readers(reads: &BTreeMap<String, Read>, scope: &Scope) -> Vec<Piece> {
+    let mut pieces = BTreeMap::new();
+    for Read { view, field, ty } in reads.values() {
+        let Some(described) = scope.views.get(view) else {
+            continue;
+        };
+        let memory = Memory::Field {
+            view: view.clone(),
+            field: field.clone(),
+        };
+        let line = described.field(field).map(|f| f.line);
+        let mut assembler = Assembler {
+            memory,
+            structs: &scope.structs,
+            line: line.unwrap_or(described.place.line),
+            functions: BTreeMap::new(),
+        };
+        assembler.reader(ty);
+        for (name, Assembly { uses, lines }) in assembler.functions {
+            let place = described.place.clone();
+            let piece = Piece {
+                name: name.clone(),
+                place,
+                uses,
+                lines,
+            };
+            pieces.insert(name, piece);
+        }
+    }
+    pieces.into_values().collect()
+}
+
+/// The constants' values; needs come before what needs them in `pieces`.
+fn constants(items: &[Item], pieces: &[Piece], scope: &Scope) -> BTreeMap<String, Value> {
+    let by_name: BTreeMap<String, &syn::ItemConst> = items
+        .iter()
+        .filter_map(|item| match &item.kind {
+            ItemKind::Constant(c) => Some((c.ident.to_string(), c)),
+            _ => None,
+        })
+        .collect();
+    let mut values = BTreeMap::new();
+    for piece in pieces {
+        if let Some(item) = by_name.get(&piece.name)
+            && let Ok(lowered) = Lowering::new(scope).constant(item)
+            && let Some(value) = evaluate(&lowered.item, &lowered.inference, &values)
+        {
+            values.insert(piece.name.clone(), value);
+        }
+    }
+    values
+}
+
+fn translate_item(
+    item: &Item,
+    scope: &Scope,
+    reads: &mut BTreeMap<String, Read>,
+) -> Result<Piece, Fault> {
     let (ident, uses, lines) = match &item.kind {
         ItemKind::Struct(s) => {
             let name = s.ident.to_string();
@@ -183,6 +313,7 @@ fn translate_item(item: &Item, scope: &Scope) -> Result<Piece, Fault> {
         ItemKind::Function(f) => {
             let lowered = Lowering::new(scope).function(f)?;
             let lines = emit::function(&lowered.item, &lowered.inference);
+            reads.extend(lowered.reads);
             (&f.sig.ident, lowered.uses, lines)
         }
     };

@@ -22,6 +22,15 @@ pub enum Ty {
     Array(Box<Ty>, usize),
     /// A struct of device code.
     Struct(String),
+    /// A reference to a local of the caller; of parameters only.
+    Reference {
+        /// What it refers to.
+        of: Box<Ty>,
+        /// `&mut`.
+        mutable: bool,
+    },
+    /// A view on buffers; of parameters only, and without a parameter in WGSL.
+    View(String),
     /// Nothing: the type of statements.
     Unit,
     /// Of what does not go on.
@@ -42,7 +51,8 @@ impl Ty {
             Ty::Vec3 => "vec3f".to_owned(),
             Ty::Array(of, length) => format!("array<{}, {length}>", of.wgsl()),
             Ty::Struct(name) => escaped(name),
-            Ty::Unit | Ty::Never | Ty::Unknown(_) => "nothing".to_owned(),
+            Ty::Reference { of, .. } => format!("ptr<function, {}>", of.wgsl()),
+            Ty::View(_) | Ty::Unit | Ty::Never | Ty::Unknown(_) => "nothing".to_owned(),
         }
     }
 
@@ -52,7 +62,9 @@ impl Ty {
             Ty::Vec2 => "Vec2".to_owned(),
             Ty::Vec3 => "Vec3".to_owned(),
             Ty::Array(of, length) => format!("[{}; {length}]", of.rust()),
-            Ty::Struct(name) => name.clone(),
+            Ty::Struct(name) | Ty::View(name) => name.clone(),
+            Ty::Reference { of, mutable: true } => format!("&mut {}", of.rust()),
+            Ty::Reference { of, .. } => format!("&{}", of.rust()),
             Ty::Unit | Ty::Never => "()".to_owned(),
             Ty::Unknown(_) => "an integer".to_owned(),
             _ => self.wgsl(),

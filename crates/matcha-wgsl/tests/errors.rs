@@ -116,6 +116,90 @@ fn items_outside_of_the_subset() {
     insta::assert_snapshot!("items", listing.join("\n"));
 }
 
+/// `body` as that of `f(v: V, s: &mut S, k: u32) -> u32`, on line 5.
+#[test]
+fn views_and_references_outside_of_the_subset() {
+    let bodies = [
+        "v.list[k as usize].a.x",
+        "v.list[k as usize].b",
+        "v.list",
+        "v.list.iter()",
+        "v.none[0]",
+        "v.plain[k as usize]",
+        "let w = v; k",
+        "f(w, s, k)",
+        "f(v, s)",
+        "f(V { plain: 1, list: v.list }, s, k)",
+        "g(v)",
+        "f(v, k, k)",
+        "f(v, &mut k, k)",
+        "f(v, &mut s.a, k)",
+        "f(v, &mut S { a: 1 }, k)",
+        "f(v, &mut v, k)",
+        "f(v, &mut s, k)",
+        "let t = s; k",
+        "let t = &k; k",
+        "k + s",
+        "*k",
+        "v.plain = k; k",
+        "s.b",
+        "if k == 0 { s } else { s }",
+        "let n = w(s) + if k == 0 { 1 } else { 2 }; n",
+        "let n = [w(s) + 1; 3]; k",
+        "let t = [1, 2]; let n = w(s) + t[k as usize]; n",
+        "let n = k + { s.a = 2; w(s) }; n",
+        "let mut t = [1, 2]; t[w(s) as usize] = 1; k",
+        "w(s);\ng(v);\nk",
+        "x(v)",
+    ];
+    let listing: Vec<String> = bodies
+        .iter()
+        .map(|body| {
+            let message = refused(&format!(
+                "pub struct S {{ a: u32 }}
+pub struct V<'a> {{ plain: u32, list: &'a [S] }}
+pub struct W<'a> {{ plain: u32, list: &'a [S] }}
+pub fn f(v: V, s: &mut S, k: u32) -> u32 {{
+{body}
+}}
+pub fn g(w: W) -> u32 {{ w.plain }}
+pub fn w(s: &mut S) -> u32 {{ s.a }}"
+            ));
+            format!("{}\n    {message}", body.replace('\n', "⏎"))
+        })
+        .collect();
+    insta::assert_snapshot!("views_and_references", listing.join("\n"));
+}
+
+#[test]
+fn faces_of_views_and_references_outside_of_the_subset() {
+    let items = [
+        "pub struct V<'a, 'b> { x: &'a [f32], y: &'b [f32] }",
+        "pub struct V<'a, T> { x: &'a [T] }",
+        "pub struct V<'a>(&'a [f32]);",
+        "pub struct V<'a> {\nx: &'a f32 }",
+        "pub struct V<'a> {\nx: &'a mut [f32] }",
+        "pub struct V<'a> {\nx: &'a [bool] }",
+        "pub struct V<'a> {\nx: &'a [u16] }",
+        "pub struct S { on: bool }\npub struct V<'a> {\nx: &'a [[S; 2]] }",
+        "pub struct S { s: S }\npub struct V<'a> {\nx: &'a [S] }",
+        "pub struct V<'a> { x: &'a [f32] }\npub struct S {\nv: V<'static> }",
+        "pub struct V<'a> { x: &'a [f32] }\npub fn f(v: &V) -> f32 { v.x[0] }",
+        "pub struct V<'a> { x: &'a [f32] }\npub fn f(v: V) -> V { v }",
+        "pub struct V<'a> { x: &'a [f32] }\npub fn f(mut v: V) -> f32 { v.x[0] }",
+        "pub struct V<'a> { x: &'a [f32] }\npub const V: f32 = 1.0;",
+        "pub struct S { x: f32 }\npub fn f<'a>(s: &'a S) -> &'a S { s }",
+        "pub struct S { x: f32 }\npub fn f(mut s: &S) -> f32 { s.x }",
+        "pub struct S { x: f32 }\npub fn f(s: &S) { }",
+        "pub struct S<'a> { x: f32 }\npub struct T { s: &'a S }",
+    ];
+    let listing: Vec<String> = items
+        .iter()
+        .map(|item| format!("{}\n    {}", item.replace('\n', "⏎"), refused(item)))
+        .collect();
+    insta::assert_snapshot!("faces", listing.join("\n"));
+}
+
 #[test]
 fn all_mistakes_are_reported_in_the_order_of_their_lines() {
     let source =

@@ -17,8 +17,9 @@ fn wgsl(source: &str) -> String {
         pub fn min(a: f32, b: f32) -> f32 { select(b, a, a < b) }";
     let modules = [module("math.rs", prelude), module("golden.rs", source)];
     let translation = translate(&modules).unwrap_or_else(|e| panic!("{e}"));
-    check(&translation.source, Capabilities::empty())
-        .unwrap_or_else(|e| panic!("{e}\n{}", translation.source.text()));
+    let mut whole = translation.stand_ins();
+    whole.append(&translation.source);
+    check(&whole, Capabilities::empty()).unwrap_or_else(|e| panic!("{e}\n{}", whole.text()));
     let of_golden = (1..).zip(translation.source.text().lines());
     let lines = of_golden.filter_map(|(number, text)| {
         let origin = translation.source.origin(number)?;
@@ -154,5 +155,105 @@ pub fn intrinsics(x: f32, k: u32) -> u32 {
     let i = 5;
     h + (bits_of(v.y) & wrapping_mul(k, k)) + both as u32 + (i as f32 > x) as u32
 }"
+    ));
+}
+
+#[test]
+fn views() {
+    insta::assert_snapshot!(wgsl(
+        "
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub struct Node { pub at: Vec3, pub children: [u32; 2], pub power: [Vec2; 9], pub kind: i32 }
+#[derive(Clone, Copy, Debug)]
+pub struct Tree<'a> {
+    pub nodes: &'a [Node],
+    pub order: &'a [u32],
+    pub scale: f32,
+    pub box_: [Vec3; 2],
+    pub root: Node,
+}
+pub fn leaf(tree: Tree<'_>, i: u32) -> f32 {
+    let node = tree.nodes[i as usize];
+    let order = tree.order[(i + 1) as usize];
+    let x = tree.nodes[order as usize].power[(i & 3) as usize].y;
+    let kind = tree.nodes[tree.order[2] as usize].kind;
+    let at = tree.nodes[3].at;
+    node.at.x + x + kind as f32 + at.z
+}
+pub fn header<'a>(i: u32, tree: Tree<'a>, k: u32) -> f32 {
+    if i >= tree.order.len() as u32 || tree.nodes.is_empty() {
+        return tree.scale;
+    }
+    let corner = tree.box_[k as usize];
+    corner.x * tree.box_[1].z * tree.root.power[k as usize].x * leaf(tree, i) * leaf((tree), 0)
+}"
+    ));
+}
+
+#[test]
+fn references() {
+    insta::assert_snapshot!(wgsl(
+        "
+pub struct Item { pub weight: f32, pub kind: u32 }
+pub struct Set { pub items: [Item; 4], pub count: u32 }
+pub fn total(set: &Set, k: u32) -> f32 {
+    set.items[0].weight + set.items[k as usize].weight
+}
+pub fn add(set: &mut Set, item: Item) {
+    if set.count >= 4 {
+        return;
+    }
+    set.items[set.count as usize] = item;
+    set.count += 1;
+}
+pub fn reset(set: &mut Set, with: Set) -> bool {
+    *set = with;
+    let old = *set;
+    old.count > 0
+}
+pub fn next(state: &mut u32) -> u32 {
+    *state = *state * 3 + 1;
+    *state
+}
+pub fn first(table: &[f32; 3]) -> f32 { table[0] }
+pub fn all<'a>(with: Set, item: &'a Item, seed: u32) -> f32 {
+    let mut set = with;
+    let fixed = with;
+    let mut state = seed;
+    add(&mut set, *item);
+    let was = if item.kind == 1 { reset(&mut set, with) } else { false };
+    let table = [1.0, 2.0, 3.0];
+    set.items[(seed & 1) as usize].kind = next(&mut state) % 5;
+    let pick = next(&mut state) - next(&mut state);
+    if was { add(&mut set, *item) } else { add(&mut set, Item { weight: 1.0, kind: pick }) }
+    total(&set, 1) + total(&fixed, 2) + total(&with, 3) + first(&table)
+}"
+    ));
+}
+
+#[test]
+fn passing_references_on() {
+    insta::assert_snapshot!(wgsl(
+        "
+pub struct Pair { pub a: f32, pub b: f32 }
+pub fn sum(pair: &Pair) -> f32 { pair.a + pair.b }
+pub fn swap(pair: &mut Pair) -> f32 {
+    let a = pair.a;
+    pair.a = pair.b;
+    pair.b = a;
+    sum(pair)
+}
+pub fn twice(pair: &mut Pair) {
+    swap(pair);
+    swap(&mut *pair);
+    let mut i = 0;
+    while swap(pair) > 1.0 && i < 3 {
+        pair.a *= 0.5;
+        i += 1;
+    }
+    if pair.a > 0.0 { twice_more(pair) }
+}
+pub fn twice_more(pair: &mut Pair) { swap(pair); }"
     ));
 }

@@ -2,6 +2,7 @@
 
 use super::Emitter;
 use crate::ir::{Block, Expr, ExprKind, Statement, StatementKind};
+use crate::lower::writes;
 
 /// Where a value goes.
 #[derive(Clone, Copy)]
@@ -59,6 +60,7 @@ impl Emitter<'_> {
                 match target {
                     Target::Variable(name) => self.push(it.line, &format!("{name} = {value};")),
                     Target::Return => self.push(it.line, &format!("return {value};")),
+                    Target::Nowhere if writes(it) => self.push(it.line, &format!("{value};")),
                     Target::Nowhere => {}
                 }
             }
@@ -135,7 +137,8 @@ impl Emitter<'_> {
             }
             StatementKind::Break => self.push(it.line, "break;"),
             StatementKind::Continue => self.push(it.line, "continue;"),
-            StatementKind::Return(value) => self.deliver(value, Target::Return),
+            StatementKind::Return(Some(value)) => self.deliver(value, Target::Return),
+            StatementKind::Return(None) => self.push(it.line, "return;"),
         }
     }
 
@@ -161,6 +164,20 @@ impl Emitter<'_> {
 
     fn assignment(&mut self, line: usize, place: &Expr, operator: Option<&str>, value: &Expr) {
         let to = self.expression(place);
+        let is_whole = operator.is_none() && matches!(place.kind, ExprKind::Local(_));
+        if !is_whole && writes(value) {
+            // Rust finds the place after the value, WGSL before.
+            let text = self.expression(value);
+            let name = self.names.fresh("value");
+            self.push(line, &format!("let {name} = {text};"));
+            let name = match operator {
+                Some("<<" | ">>") => format!("u32({name})"),
+                _ => name,
+            };
+            let operator = operator.unwrap_or_default();
+            self.push(line, &format!("{to} {operator}= {name};"));
+            return;
+        }
         match operator {
             None if needs_statements(value) && matches!(place.kind, ExprKind::Local(_)) => {
                 self.assign_to(&to, value);

@@ -66,6 +66,7 @@ impl Lowering<'_> {
         let kind = ExprKind::Call {
             function: name.to_owned(),
             arguments,
+            writes: false,
         };
         let ty = self.inference.known(&any);
         Ok(Expr { line, ty, kind })
@@ -80,6 +81,8 @@ impl Lowering<'_> {
         let Some(Signature { parameters, result }) = self.scope.functions.get(name).cloned() else {
             return Err((line, Problem::UnknownFunction(name.to_owned())));
         };
+        let writes = |ty: &Ty| matches!(ty, Ty::Reference { mutable: true, .. });
+        let writes = parameters.iter().any(writes);
         let arguments = self.arguments(line, name, &parameters, arguments)?;
         let is_global = match intrinsic(name) {
             None => true,
@@ -91,6 +94,7 @@ impl Lowering<'_> {
         let kind = ExprKind::Call {
             function: name.to_owned(),
             arguments,
+            writes,
         };
         Ok(Expr {
             line,
@@ -116,15 +120,26 @@ impl Lowering<'_> {
         }
         let mut arguments = Vec::new();
         for (ty, argument) in types.iter().zip(given) {
-            let value = self.operand(argument)?;
-            self.inference.unify(value.line, ty, &value.ty)?;
-            arguments.push(value);
+            match ty {
+                // It is known by its type alone.
+                Ty::View(name) => self.same_view(argument, name)?,
+                Ty::Reference { of, .. } => arguments.push(self.reference(argument, of)?),
+                _ => {
+                    let value = self.operand(argument)?;
+                    self.inference.unify(value.line, ty, &value.ty)?;
+                    arguments.push(value);
+                }
+            }
         }
         Ok(arguments)
     }
 
-    /// The one method that the prelude needs; all others have free functions.
+    /// The methods of buffers, and the one that the prelude needs; all others have free
+    /// functions.
     pub(super) fn method(&mut self, line: usize, it: &syn::ExprMethodCall) -> Result<Expr, Fault> {
+        if let Some(of_buffer) = self.buffer_method(line, it)? {
+            return Ok(of_buffer);
+        }
         if it.method != "to_int_unchecked" {
             let what = format!("the method `{}`", it.method);
             return Err(outside(line, what, "call a free function of `math`"));

@@ -22,8 +22,14 @@ impl Lowering<'_> {
             syn::Expr::Repeat(it) => self.repeat(line, it),
             syn::Expr::Unary(it) => self.unary(line, it),
             syn::Expr::Binary(it) => self.binary(line, it),
-            syn::Expr::Field(it) => self.field(line, it),
-            syn::Expr::Index(it) => self.index(line, it),
+            syn::Expr::Field(it) => match self.stored(expression)? {
+                Some(stored) => Ok(self.read(line, stored)),
+                None => self.field(line, it),
+            },
+            syn::Expr::Index(it) => match self.stored(expression)? {
+                Some(stored) => Ok(self.read(line, stored)),
+                None => self.index(line, it),
+            },
             syn::Expr::Cast(it) => self.cast(line, it),
             syn::Expr::If(it) => self.choice(it),
             syn::Expr::Block(it) if it.label.is_none() => self.block_value(line, &it.block),
@@ -77,6 +83,9 @@ impl Lowering<'_> {
             && let Some(local) = self.find(name)
         {
             let ty = self.locals[local].ty.clone();
+            if let Some(refused) = by_itself(line, &ty) {
+                return Err(refused);
+            }
             let kind = ExprKind::Local(local);
             return Ok(Expr { line, ty, kind });
         }
@@ -108,6 +117,13 @@ impl Lowering<'_> {
             .last()
             .map(|s| s.ident.to_string())
             .unwrap_or_default();
+        if self.scope.views.contains_key(&name) {
+            return Err(outside(
+                line,
+                "making a view",
+                "views come from hosts; pass a parameter on",
+            ));
+        }
         let (ty, fields) = match name.as_str() {
             "Vec2" => (Ty::Vec2, vector_fields(2)),
             "Vec3" => (Ty::Vec3, vector_fields(3)),
@@ -171,13 +187,16 @@ impl Lowering<'_> {
     }
 
     fn unary(&mut self, line: usize, it: &syn::ExprUnary) -> Result<Expr, Fault> {
+        if let syn::UnOp::Deref(_) = it.op {
+            return self.deref(line, &it.expr);
+        }
         let operand = self.operand(&it.expr)?;
         let known = self.inference.known(&operand.ty);
         let operator = match it.op {
             syn::UnOp::Neg(_) => "-",
             syn::UnOp::Not(_) if known == Ty::Bool => "!",
             syn::UnOp::Not(_) => "~",
-            _ => return Err(outside(line, "`*`", "there are no references")),
+            _ => return Err(outside(line, "this operator", "use `-` and `!`")),
         };
         let ty = operand.ty.clone();
         let kind = ExprKind::Unary(operator, Box::new(operand));
@@ -254,24 +273,30 @@ impl Lowering<'_> {
     }
 
     fn field(&mut self, line: usize, it: &syn::ExprField) -> Result<Expr, Fault> {
-        let of = self.operand(&it.base)?;
+        let of = self.base(&it.base)?;
         let field = member_name(&it.member);
-        let fields = match self.inference.known(&of.ty) {
-            Ty::Vec2 => vector_fields(2),
-            Ty::Vec3 => vector_fields(3),
-            Ty::Struct(name) => self.scope.structs.get(&name).cloned().unwrap_or_default(),
-            _ => Vec::new(),
-        };
-        let Some((_, ty)) = fields.into_iter().find(|(n, _)| *n == field) else {
-            let ty = self.inference.known(&of.ty).rust();
-            return Err((line, Problem::UnknownField { ty, field }));
-        };
+        let ty = self.field_type(line, &of.ty, &field)?;
         let kind = ExprKind::Field(Box::new(of), field);
         Ok(Expr { line, ty, kind })
     }
 
+    pub(super) fn field_type(&self, line: usize, of: &Ty, field: &str) -> Result<Ty, Fault> {
+        let of = self.inference.known(of);
+        let fields = match &of {
+            Ty::Vec2 => vector_fields(2),
+            Ty::Vec3 => vector_fields(3),
+            Ty::Struct(name) => self.scope.structs.get(name).cloned().unwrap_or_default(),
+            _ => Vec::new(),
+        };
+        let found = fields.into_iter().find(|(n, _)| n == field);
+        found.map(|(_, ty)| ty).ok_or_else(|| {
+            let (ty, field) = (of.rust(), field.to_owned());
+            (line, Problem::UnknownField { ty, field })
+        })
+    }
+
     fn index(&mut self, line: usize, it: &syn::ExprIndex) -> Result<Expr, Fault> {
-        let of = self.operand(&it.expr)?;
+        let of = self.base(&it.expr)?;
         let index = self.operand(&it.index)?;
         let Ty::Array(element, _) = self.inference.known(&of.ty) else {
             return Err(outside(
@@ -298,6 +323,7 @@ impl Lowering<'_> {
         };
         let from = self.inference.known(&value.ty);
         match (&from, &ty) {
+            (Ty::U32, Ty::U32) => Ok(value),
             (Ty::F32, Ty::I32 | Ty::U32) => Err(outside(
                 line,
                 "a cast of a float to an integer",
@@ -332,7 +358,7 @@ fn vector_fields(count: usize) -> Vec<(String, Ty)> {
     names.map(|n| ((*n).to_owned(), Ty::F32)).collect()
 }
 
-fn member_name(member: &syn::Member) -> String {
+pub(super) fn member_name(member: &syn::Member) -> String {
     match member {
         syn::Member::Named(name) => name.to_string(),
         syn::Member::Unnamed(index) => index.index.to_string(),
@@ -349,13 +375,30 @@ fn float_literal(line: usize, digits: &str, suffix: &str) -> Result<ExprKind, Fa
     }
 }
 
+/// Why a parameter cannot be used as a value; `None` if it can.
+fn by_itself(line: usize, ty: &Ty) -> Option<Fault> {
+    match ty {
+        Ty::Reference { .. } => Some(outside(
+            line,
+            "a reference by itself",
+            "read its fields or `*` it, or pass it on",
+        )),
+        Ty::View(_) => Some(outside(
+            line,
+            "a view by itself",
+            "read its fields, or pass it on",
+        )),
+        _ => None,
+    }
+}
+
 /// Why a construct is no device code.
 fn refused(line: usize, expression: &syn::Expr) -> Fault {
     let (what, instead) = match expression {
         syn::Expr::Match(_) => ("`match`", "use `if`"),
         syn::Expr::ForLoop(_) => ("`for`", "use `while`"),
         syn::Expr::Closure(_) => ("a closure", "write a function"),
-        syn::Expr::Reference(_) => ("a reference", "pass and return values"),
+        syn::Expr::Reference(_) => ("a reference", "references are arguments, of whole locals"),
         syn::Expr::Tuple(_) => ("a tuple", "name a struct"),
         syn::Expr::Macro(_) => ("a macro", "device code neither panics nor prints"),
         syn::Expr::Try(_) => ("`?`", "return a value that says so"),

@@ -104,13 +104,19 @@ impl Lowering<'_> {
             }
             syn::Expr::While(_) | syn::Expr::Loop(_) => self.repetition(expression, line)?,
             syn::Expr::Return(it) => {
-                let Some(value) = &it.expr else {
-                    return Err(outside(line, "`return` without value", "return the result"));
-                };
-                let value = self.expression(value)?;
                 let result = self.result.clone();
-                self.inference.unify(value.line, &result, &value.ty)?;
-                StatementKind::Return(value)
+                match &it.expr {
+                    None if result == Ty::Unit => StatementKind::Return(None),
+                    None => {
+                        return Err(outside(line, "`return` without value", "return the result"));
+                    }
+                    Some(value) => {
+                        let value = self.expression(value)?;
+                        self.inference.unify(value.line, &result, &value.ty)?;
+                        self.must_be_value(&value)?;
+                        StatementKind::Return(Some(value))
+                    }
+                }
             }
             syn::Expr::Break(it) if it.label.is_none() && it.expr.is_none() => StatementKind::Break,
             syn::Expr::Continue(it) if it.label.is_none() => StatementKind::Continue,
@@ -127,11 +133,15 @@ impl Lowering<'_> {
                 if is_value && !matches!(ty, Ty::Unit | Ty::Never) {
                     return Ok(Lowest::Value(value));
                 }
-                if !matches!(value.kind, ExprKind::If { .. } | ExprKind::Block(_)) {
+                let has_effect = match value.kind {
+                    ExprKind::Call { writes, .. } => writes,
+                    _ => matches!(value.kind, ExprKind::If { .. } | ExprKind::Block(_)),
+                };
+                if !has_effect {
                     return Err(outside(
                         line,
                         "a value that nothing takes",
-                        "device functions have no effects",
+                        "only assignments and calls with `&mut` have effects",
                     ));
                 }
                 StatementKind::Run(value)
@@ -169,7 +179,7 @@ impl Lowering<'_> {
     ) -> Result<StatementKind, Fault> {
         let line = left.span().start().line;
         if let syn::Expr::Infer(_) = left {
-            return Err(outside(line, "`_ = …`", "device functions have no effects"));
+            return Err(outside(line, "`_ = …`", "leave the value away"));
         }
         let place = self.expression(left)?;
         if root(&place).is_none() {
@@ -302,7 +312,7 @@ enum Lowest {
 /// The local that a place lies in.
 pub(crate) fn root(place: &Expr) -> Option<usize> {
     match &place.kind {
-        ExprKind::Local(id) => Some(*id),
+        ExprKind::Local(id) | ExprKind::Deref(id) => Some(*id),
         ExprKind::Field(of, _) | ExprKind::Index(of, _) => root(of),
         _ => None,
     }
