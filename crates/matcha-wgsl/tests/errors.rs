@@ -86,7 +86,7 @@ fn items_outside_of_the_subset() {
         "#[cfg(feature = \"x\")]\npub fn f(x: f32) -> f32 { x }",
         "pub fn f<T>(x: T) -> T { x }",
         "pub unsafe fn f(x: f32) -> f32 { x }",
-        "pub fn f(x: &f32) -> f32 { 1.0 }",
+        "pub fn f(x: f32) -> &f32 { x }",
         "pub fn f(x: &[f32]) -> f32 { 1.0 }",
         "pub fn f(x: (f32, f32)) -> f32 { 1.0 }",
         "pub fn f(x: Vec4) -> f32 { 1.0 }",

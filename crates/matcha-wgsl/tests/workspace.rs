@@ -13,7 +13,8 @@ fn device_modules_and_operations_are_valid_wgsl() {
     let device = device(Vec::new());
     let operations = table(&device);
     let translated = begin.elapsed();
-    let mut all = device.source.clone();
+    let mut all = device.stand_ins();
+    all.append(&device.source);
     all.append(&operations.source());
     all.append(&Source::written(
         "test.wgsl",
@@ -41,7 +42,7 @@ fn device_modules_and_operations_are_valid_wgsl() {
     );
     assert!(device.functions.len() > 300, "device modules are missing");
 
-    let mut needed = device.needed(operations.functions());
+    let mut needed = device.needed(operations.functions()).source;
     let without_closures = needed.text().lines().count();
     assert!(without_closures < device.source.text().lines().count());
     needed.append(&operations.source());
@@ -130,7 +131,9 @@ fn what_naga_refuses_names_its_line() {
         "{error}"
     );
 
-    let mut all = device(Vec::new()).source;
+    let device = device(Vec::new());
+    let mut all = device.stand_ins();
+    all.append(&device.source);
     all.append(&Source::written(
         "host.wgsl",
         "// Host layer.\nfn host(x: f32) -> f32 {\n    return exp_(hash1(x));\n}",

@@ -2,6 +2,8 @@
 //! table, and functions of every module, at thousands of random points.
 
 mod adapter;
+mod memory;
+mod memory_probes;
 mod points;
 mod probes;
 #[path = "../support/mod.rs"]
@@ -54,7 +56,7 @@ fn probe_wgsl(code: &Translation, probe: &str) -> String {
     format!(
         "{}\nfn run(point: Point, immediate: u32) -> vec4u {{\n    let p = point.first;\n    \
          let r = {probe}(array<u32, 13>({}));\n    return vec4u(r[0], r[1], r[2], r[3]);\n}}\n",
-        code.needed([probe]).text(),
+        code.needed([probe]).source.text(),
         words.join(", ")
     )
 }
@@ -74,7 +76,7 @@ fn operation_wgsl(code: &Translation, all: &Operations, index: usize) -> String 
     format!(
         "{}{}{}\nfn run(point: Point, immediate: u32) -> vec4u {{\n    \
          return bitcast<vec4u>(execute({}u, point, immediate));\n}}\n",
-        code.needed(one.functions()).text(),
+        code.needed(one.functions()).source.text(),
         one.source().text(),
         dispatch.text(),
         one.entries[0].code
@@ -227,7 +229,7 @@ fn the_switch_runs_the_operation_of_its_code() {
     let wgsl = format!(
         "{}{}{}\nfn run(point: Point, word: u32) -> vec4u {{\n    \
          return bitcast<vec4u>(execute(word & 0xffffu, point, word >> 16u));\n}}\n",
-        code.needed(all.functions()).text(),
+        code.needed(all.functions()).source.text(),
         all.source().text(),
         dispatch.text()
     );
