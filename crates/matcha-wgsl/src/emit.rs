@@ -44,6 +44,7 @@ pub(crate) fn constant(
 /// A function.
 pub(crate) fn function(function: &FunctionBody, inference: &Inference) -> Vec<Line> {
     let mut emitter = Emitter::new(inference);
+    emitter.result = function.result.clone();
     let locals = function.locals.iter();
     for local in locals {
         let name = match local.ty {
@@ -79,7 +80,7 @@ pub(crate) fn function(function: &FunctionBody, inference: &Inference) -> Vec<Li
     for copy in copies {
         emitter.push(function.line, &copy);
     }
-    emitter.result(&function.body);
+    emitter.body(&function.body);
     emitter.depth -= 1;
     emitter.push(function.line, "}");
     emitter.lines
@@ -93,6 +94,8 @@ struct Emitter<'a> {
     locals: Vec<(String, bool)>,
     /// Settled type by local.
     local_types: Vec<Ty>,
+    /// The function's result.
+    result: Ty,
     lines: Vec<Line>,
     depth: usize,
 }
@@ -104,6 +107,7 @@ impl<'a> Emitter<'a> {
             names: LocalNames::default(),
             locals: Vec::new(),
             local_types: Vec::new(),
+            result: Ty::Unit,
             lines: Vec::new(),
             depth: 0,
         }

@@ -5,6 +5,10 @@
 //! as they are. This crate reads the same files with `syn` and writes them as WGSL:
 //!
 //! * [`translate`] turns modules of device functions into one [`Source`].
+//! * [`Translation::views`] is what functions read of buffers; host layers answer with a
+//!   function for each field ([`View`] has their names), and [`Translation::stand_ins`] does
+//!   while there is no host yet.
+//! * [`Translation::columns`] stores structs and loads them again, word by word.
 //! * [`operations`] reads the table of operations and adds a function for each, loops
 //!   included, and [`Operations::dispatch`] the switch over them.
 //! * [`check`] has naga validate the whole, host layers too.

@@ -189,6 +189,19 @@ fn diverges(block: &Block) -> bool {
             ExprKind::Block(inner) => diverges(inner),
             _ => false,
         },
+        StatementKind::While {
+            condition: None,
+            body,
+        } => !has_break(body),
+        _ => false,
+    })
+}
+
+/// True if the loop around the block may be left by `break`.
+fn has_break(block: &Block) -> bool {
+    block.statements.iter().any(|s| match &s.kind {
+        StatementKind::Break => true,
+        StatementKind::Run(run) => run.blocks().into_iter().any(has_break),
         _ => false,
     })
 }

@@ -101,6 +101,30 @@ pub fn loops(x: f32, n: u32) -> f32 {
 }
 
 #[test]
+fn loops_that_only_return_leaves() {
+    insta::assert_snapshot!(wgsl(
+        "
+pub fn endless(x: f32, n: u32) -> f32 {
+    let mut sum = x;
+    if n == 3 {
+        loop { sum += 2.0; if sum > 50.0 { return sum; } }
+    } else {
+        let mut i = 0;
+        loop {
+            i += 1;
+            loop { sum *= 2.0; if sum > 9.0 { break; } }
+            if i > n { return sum; }
+        }
+    }
+}
+pub fn only(n: u32) -> u32 {
+    let mut i = n;
+    loop { i += 3; if i > 9 { return i; } }
+}"
+    ));
+}
+
+#[test]
 fn arrays_and_structs() {
     insta::assert_snapshot!(wgsl(
         "

@@ -3,6 +3,7 @@
 use super::Emitter;
 use crate::ir::{Block, Expr, ExprKind, Statement, StatementKind};
 use crate::lower::writes;
+use crate::types::Ty;
 
 /// Where a value goes.
 #[derive(Clone, Copy)]
@@ -15,8 +16,14 @@ enum Target<'t> {
 
 impl Emitter<'_> {
     /// A function's body.
-    pub(super) fn result(&mut self, body: &Block) {
+    pub(super) fn body(&mut self, body: &Block) {
         self.block(body, Target::Return);
+        if self.result != Ty::Unit && ends_in_loop(body) {
+            // Only `return` leaves the loop; WGSL wants to see a result behind it.
+            let line = self.lines.last().map_or(1, |(_, line)| *line);
+            let zero = format!("return {}();", self.result.wgsl());
+            self.push(line, &zero);
+        }
     }
 
     /// Statements after which the variable `name` has the value.
@@ -229,6 +236,17 @@ fn needs_statements(it: &Expr) -> bool {
         },
         _ => false,
     }
+}
+
+/// True for a block without value whose last statement is a loop, or holds such a block.
+fn ends_in_loop(block: &Block) -> bool {
+    let last = block.statements.last().map(|last| &last.kind);
+    block.value.is_none()
+        && match last {
+            Some(StatementKind::While { .. }) => true,
+            Some(StatementKind::Run(run)) => run.blocks().into_iter().any(ends_in_loop),
+            _ => false,
+        }
 }
 
 /// True for a statement after which nothing runs.
