@@ -61,7 +61,7 @@ pub fn direction(z: f32, azimuth: f32) -> Vec3 {
 pub fn lobes(kind: ClosureKind, rows: &[f32], frame: &Frame) -> LobeSet {
     let mut set = LobeSet::new();
     set.begin(frame);
-    prepare_closure(kind, rows, frame, &ClosureContext::default(), &mut set);
+    prepare_closure(kind, rows, &ClosureContext::default(), &mut set);
     set
 }
 

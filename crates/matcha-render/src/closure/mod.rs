@@ -1,14 +1,13 @@
 //! Closures of a hit: from the rows that a program returns to lobes that can be evaluated
-//! and sampled. The mathematics is device code (`crate::device`); deciding which lobes
-//! there are, and loops over them, is the host layer here.
+//! and sampled. All of that is device code (`crate::device::closure_prepare`, `closure_set`);
+//! here are its names for the rest of the renderer, and its tables.
 //!
 //! `docs/closures.md` lists models and sources. Directions point away from the surface;
 //! values contain the cosine.
 
-mod albedo;
+mod code;
 pub mod integrate;
 mod prepare;
-mod principled;
 mod set;
 pub mod tables;
 
@@ -21,6 +20,8 @@ mod reference;
 #[cfg(test)]
 mod tests;
 
+pub use crate::device::closure_set::LobeSet;
 pub use crate::device::lobe::ClosureFrame as Frame;
+pub use code::code;
 pub use prepare::{ClosureContext, prepare_closure};
-pub use set::{Evaluated, LobeSet, Scattered, flags};
+pub use set::{Evaluated, Scattered, flags};

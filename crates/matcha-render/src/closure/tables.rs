@@ -1,16 +1,21 @@
-//! Albedos of microfacet lobes, tabulated. A host layer: device code gets the numbers that
-//! these functions look up, never the tables.
+//! Albedos of microfacet and sheen lobes, tabulated: loading. Device code
+//! (`crate::device::closure_tables`) says how the entries lie and interpolates.
 //!
 //! `tables.bin` is written by `cargo run --release -p matcha-render --example
-//! closure_tables`; a test derives it anew. Axes, each linear from 0 to 1 over its nodes:
-//! roughness √α, cosine, and for dielectrics the fourth root of F0.
+//! closure_tables`; a test derives it anew. `sheen.bin` is measured (docs/closures.md).
 
+use crate::device::closure_tables::{
+    CLOSURE_GLASS_NODES, CLOSURE_REFLECTION_NODES, CLOSURE_TABLE_DIELECTRIC, CLOSURE_TABLE_END,
+    CLOSURE_TABLE_GLASS, CLOSURE_TABLE_GLASS_INSIDE, CLOSURE_TABLE_GLASS_INSIDE_MEAN,
+    CLOSURE_TABLE_GLASS_MEAN, CLOSURE_TABLE_REFLECTION, CLOSURE_TABLE_REFLECTION_MEAN,
+    CLOSURE_TABLE_SCHLICK, CLOSURE_TABLE_SHEEN, ClosureTables,
+};
 use std::sync::LazyLock;
 
 /// Nodes on each axis of the reflection table.
-pub const REFLECTION: usize = 32;
+pub const REFLECTION: usize = CLOSURE_REFLECTION_NODES as usize;
 /// Nodes on each axis of the tables with an index of refraction.
-pub const GLASS: usize = 16;
+pub const GLASS: usize = CLOSURE_GLASS_NODES as usize;
 
 /// All microfacet tables, values 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,15 +39,17 @@ pub struct Tables {
     pub schlick: Vec<f32>,
 }
 
-const SIZES: [usize; 8] = [
-    REFLECTION * REFLECTION,
-    REFLECTION,
-    GLASS * GLASS * GLASS,
-    GLASS * GLASS,
-    GLASS * GLASS * GLASS,
-    GLASS * GLASS,
-    GLASS * GLASS * GLASS,
-    GLASS * GLASS,
+/// First entries of the parts in the file's order, and where the last one ends.
+const STARTS: [u32; 9] = [
+    CLOSURE_TABLE_REFLECTION,
+    CLOSURE_TABLE_REFLECTION_MEAN,
+    CLOSURE_TABLE_GLASS,
+    CLOSURE_TABLE_GLASS_MEAN,
+    CLOSURE_TABLE_GLASS_INSIDE,
+    CLOSURE_TABLE_GLASS_INSIDE_MEAN,
+    CLOSURE_TABLE_DIELECTRIC,
+    CLOSURE_TABLE_SCHLICK,
+    CLOSURE_TABLE_SHEEN,
 ];
 
 const SCALE: f32 = 65535.0;
@@ -92,137 +99,44 @@ impl Tables {
         let mut words = bytes
             .chunks_exact(2)
             .map(|b| f32::from(u16::from_le_bytes([b[0], b[1]])));
-        let mut part = |n: usize| -> Vec<f32> {
-            (0..n)
+        let mut part = |i: usize| -> Vec<f32> {
+            (STARTS[i]..STARTS[i + 1])
                 .map(|_| words.next().unwrap_or(0.0) / SCALE)
                 .collect()
         };
         Self {
-            reflection: part(SIZES[0]),
-            reflection_mean: part(SIZES[1]),
-            glass: part(SIZES[2]),
-            glass_mean: part(SIZES[3]),
-            glass_inside: part(SIZES[4]),
-            glass_inside_mean: part(SIZES[5]),
-            dielectric: part(SIZES[6]),
-            schlick: part(SIZES[7]),
+            reflection: part(0),
+            reflection_mean: part(1),
+            glass: part(2),
+            glass_mean: part(3),
+            glass_inside: part(4),
+            glass_inside_mean: part(5),
+            dielectric: part(6),
+            schlick: part(7),
         }
     }
 }
 
-static TABLES: LazyLock<Tables> =
-    LazyLock::new(|| Tables::from_bytes(include_bytes!("tables.bin")));
-
-/// The committed tables.
-pub fn tables() -> &'static Tables {
-    &TABLES
+/// The committed microfacet tables.
+pub fn tables() -> Tables {
+    Tables::from_bytes(include_bytes!("tables.bin"))
 }
 
-/// Nodes on each axis of the sheen table.
-pub const SHEEN: usize = 32;
-
-/// Sheen coefficients for one angle and roughness.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SheenFit {
-    /// First coefficient of the inverse transform.
-    pub a: f32,
-    /// Second coefficient.
-    pub b: f32,
-    /// Directional albedo.
-    pub albedo: f32,
-}
-
-/// Three planes of roughness × cosine: a, b, albedo.
-static SHEEN_TABLE: LazyLock<Vec<f32>> = LazyLock::new(|| {
-    let bytes: &[u8] = include_bytes!("sheen.bin");
-    bytes
-        .chunks_exact(4)
-        .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-        .collect()
+/// All entries as device code reads them.
+static ENTRIES: LazyLock<Vec<f32>> = LazyLock::new(|| {
+    let mut entries = tables().parts().map(Vec::as_slice).concat();
+    // Three planes of roughness × cosine: a, b, albedo.
+    let sheen: &[u8] = include_bytes!("sheen.bin");
+    entries.extend(
+        sheen
+            .chunks_exact(4)
+            .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])),
+    );
+    assert_eq!(entries.len(), CLOSURE_TABLE_END as usize, "closure tables");
+    entries
 });
 
-/// Where a coordinate falls between nodes.
-fn locate(x: f32, n: usize) -> (usize, usize, f32) {
-    // Not a number becomes 0.
-    let x = if x > 0.0 { x.min(1.0) } else { 0.0 } * (n - 1) as f32;
-    let i = (x as usize).min(n - 1);
-    (i, (i + 1).min(n - 1), x - i as f32)
-}
-
-fn linear(table: &[f32], n: usize, x: f32) -> f32 {
-    let (i, j, t) = locate(x, n);
-    table[i] + (table[j] - table[i]) * t
-}
-
-fn bilinear(table: &[f32], n: usize, x: f32, y: f32) -> f32 {
-    let (i, j, t) = locate(y, n);
-    let a = linear(&table[i * n..][..n], n, x);
-    let b = linear(&table[j * n..][..n], n, x);
-    a + (b - a) * t
-}
-
-fn trilinear(table: &[f32], n: usize, x: f32, y: f32, z: f32) -> f32 {
-    let (i, j, t) = locate(z, n);
-    let slice = n * n;
-    let a = bilinear(&table[i * slice..][..slice], n, x, y);
-    let b = bilinear(&table[j * slice..][..slice], n, x, y);
-    a + (b - a) * t
-}
-
-/// Coordinate of a relative index of refraction in the tables, the same for its inverse.
-fn ior_coordinate(ior: f32) -> f32 {
-    ((ior - 1.0) / (ior + 1.0)).abs().sqrt()
-}
-
-/// Directional albedo of single-scattering GGX reflection without Fresnel, and its mean.
-pub fn reflection_albedo(roughness: f32, cosine: f32) -> (f32, f32) {
-    let t = tables();
-    (
-        bilinear(&t.reflection, REFLECTION, roughness, cosine),
-        linear(&t.reflection_mean, REFLECTION, roughness),
-    )
-}
-
-/// Directional albedo of single-scattering GGX glass, and its mean.
-pub fn glass_albedo(roughness: f32, cosine: f32, ior: f32) -> (f32, f32) {
-    let t = tables();
-    let inside = ior < 1.0;
-    let z = ior_coordinate(ior);
-    let table = if inside { &t.glass_inside } else { &t.glass };
-    let mean = if inside {
-        &t.glass_inside_mean
-    } else {
-        &t.glass_mean
-    };
-    (
-        trilinear(table, GLASS, roughness, cosine, z),
-        bilinear(mean, GLASS, roughness, z),
-    )
-}
-
-/// Mean position between F0 and 1 of a dielectric's reflectance over visible microfacets.
-pub fn dielectric_position(roughness: f32, cosine: f32, ior: f32) -> f32 {
-    trilinear(
-        &tables().dielectric,
-        GLASS,
-        roughness,
-        cosine,
-        ior_coordinate(ior),
-    )
-}
-
-/// Likewise of Schlick's approximation.
-pub fn schlick_position(roughness: f32, cosine: f32) -> f32 {
-    bilinear(&tables().schlick, GLASS, roughness, cosine)
-}
-
-/// Sheen coefficients.
-pub fn sheen_fit(roughness: f32, cosine: f32) -> SheenFit {
-    let plane = |i: usize| &SHEEN_TABLE[i * SHEEN * SHEEN..][..SHEEN * SHEEN];
-    let read = |i: usize| bilinear(plane(i), SHEEN, cosine, roughness);
-    SheenFit {
-        a: read(0),
-        b: read(1),
-        albedo: read(2),
-    }
+/// The tables of all closures.
+pub fn closure_tables() -> ClosureTables<'static> {
+    ClosureTables { entry: &ENTRIES }
 }

@@ -346,7 +346,7 @@ fn transparency_emission_and_holdout_are_apart() {
         Vec3::splat(0.75),
         &[("roughness", &[0.0])],
     );
-    prepare_closure(ClosureKind::Diffuse, &diffuse, &f, &context, &mut set);
+    prepare_closure(ClosureKind::Diffuse, &diffuse, &context, &mut set);
     assert_eq!(set.emission, Vec3::splat(2.0));
     assert_eq!(set.transparency, Vec3::splat(0.25));
     assert_eq!(set.holdout, Vec3::splat(0.125));

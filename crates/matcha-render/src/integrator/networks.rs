@@ -4,7 +4,8 @@ use super::Frame;
 use super::path::{Path, flags};
 use super::worker::SurfaceTask;
 use crate::accel::Hit;
-use crate::closure::{self, ClosureContext, LobeSet, prepare_closure};
+use crate::closure::{self, ClosureContext, LobeSet, code, prepare_closure};
+use crate::device::closure_rows::{ClosureRows, closure_radiance, closure_shading_normal};
 use crate::light::Emission;
 use crate::node_cache::{MaterialCache, Scratch};
 use crate::surface::{BackgroundRay, PathInfo, SurfacePoint, fill_background};
@@ -298,22 +299,22 @@ fn shadow_info(direction: Vec3) -> PathInfo {
 
 /// Sum of the emitting closures of point `i`: a world's or a light's radiance.
 pub fn radiance(program: &Program, outputs: &Rows, i: usize) -> Vec3 {
+    let mut buffer = [0.0; MOST_ROWS];
     program
         .closures
         .iter()
-        .filter(|c| matches!(c.kind, ClosureKind::Background | ClosureKind::Emission))
-        .map(|c| Vec3::from_array(std::array::from_fn(|k| outputs.row(c.first_row + k)[i])))
-        .filter(|light| light.is_finite())
+        .map(|c| closure_radiance(code(c.kind), rows(c, outputs, i, &mut buffer)))
         .sum()
 }
 
-/// The normal that displacement as bump gives point `i`, if the material has any.
-fn shading_normal(program: &Program, outputs: &Rows, i: usize) -> Option<Vec3> {
+/// The normal that displacement as bump gives point `i`; `normal` where there is none.
+fn shading_normal(program: &Program, outputs: &Rows, i: usize, normal: Vec3) -> Vec3 {
     let is_normal = |c: &&ClosureOutput| c.kind == ClosureKind::ShadingNormal;
-    let output = program.closures.iter().find(is_normal)?;
-    let first = output.first_row + 3;
-    let normal = Vec3::from_array(std::array::from_fn(|k| outputs.row(first + k)[i]));
-    normal.try_normalize()
+    let Some(output) = program.closures.iter().find(is_normal) else {
+        return normal;
+    };
+    let mut buffer = [0.0; MOST_ROWS];
+    closure_shading_normal(rows(output, outputs, i, &mut buffer), normal)
 }
 
 /// Makes the lobes of point `i` from its output rows.
@@ -325,20 +326,30 @@ fn build_lobes(
     context: &ClosureContext,
     lobes: &mut LobeSet,
 ) {
-    let frame = closure::Frame {
-        n: shading_normal(program, outputs, i).unwrap_or(point.normal),
+    lobes.begin(&closure::Frame {
+        n: shading_normal(program, outputs, i, point.normal),
         ng: point.true_normal,
         wo: point.outgoing,
         backfacing: point.backfacing != 0,
         bump_correction: true,
-    };
-    lobes.begin(&frame);
+    });
+    let mut buffer = [0.0; MOST_ROWS];
     for output in &program.closures {
-        let mut rows = [0.0; MOST_ROWS];
-        let count = output.kind.rows();
-        for (k, value) in rows[..count].iter_mut().enumerate() {
-            *value = outputs.row(output.first_row + k)[i];
-        }
-        prepare_closure(output.kind, &rows[..count], &frame, context, lobes);
+        let rows = rows(output, outputs, i, &mut buffer);
+        prepare_closure(output.kind, rows.row, context, lobes);
     }
+}
+
+/// Weight and parameters of a closure of point `i`, gathered in `buffer`.
+fn rows<'a>(
+    output: &ClosureOutput,
+    outputs: &Rows,
+    i: usize,
+    buffer: &'a mut [f32; MOST_ROWS],
+) -> ClosureRows<'a> {
+    let row = &mut buffer[..output.kind.rows()];
+    for (k, value) in row.iter_mut().enumerate() {
+        *value = outputs.row(output.first_row + k)[i];
+    }
+    ClosureRows { row }
 }

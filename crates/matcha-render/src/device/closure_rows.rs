@@ -1,0 +1,82 @@
+//! A closure's weight and parameters, as a program returns them for one point.
+
+use glam::Vec3;
+use matcha_shade::device::math::{MAX, bits_of, length, vec3};
+
+use super::closure_kind::{
+    CLOSURE_BACKGROUND, CLOSURE_EMISSION, CLOSURE_ROW_WEIGHT, NORMAL_ROW_NORMAL,
+};
+
+/// The rows of one closure of one point.
+#[derive(Clone, Copy, Debug)]
+pub struct ClosureRows<'a> {
+    /// Weight and parameters in the order of `matcha_shade::closure`.
+    pub row: &'a [f32],
+}
+
+/// Whether a number is neither infinite nor not a number.
+#[inline(always)]
+pub fn closure_finite(x: f32) -> bool {
+    // By its bits: graphics devices may take every number to be finite.
+    (bits_of(x) & 0x7f80_0000) != 0x7f80_0000
+}
+
+/// [`closure_finite`] of every component.
+#[inline(always)]
+pub fn closure_finite3(v: Vec3) -> bool {
+    closure_finite(v.x) && closure_finite(v.y) && closure_finite(v.z)
+}
+
+/// Row `i`; 0 where it is not finite.
+#[inline(always)]
+pub fn closure_number(rows: ClosureRows, i: u32) -> f32 {
+    let value = rows.row[i as usize];
+    if closure_finite(value) { value } else { 0.0 }
+}
+
+/// Three rows from `i` on; those that are not finite read 0.
+#[inline(always)]
+pub fn closure_triple(rows: ClosureRows, i: u32) -> Vec3 {
+    vec3(
+        closure_number(rows, i),
+        closure_number(rows, i + 1),
+        closure_number(rows, i + 2),
+    )
+}
+
+/// `v` as a unit vector; `otherwise` where it has no direction.
+#[inline(always)]
+pub fn closure_unit(v: Vec3, otherwise: Vec3) -> Vec3 {
+    let l = length(v);
+    if l > 0.0 && l <= MAX {
+        v * (1.0 / l)
+    } else {
+        otherwise
+    }
+}
+
+/// The normal that displacement as bump gives: the parameter of the closure
+/// `CLOSURE_SHADING_NORMAL`, or `otherwise` where that has no direction.
+#[inline]
+pub fn closure_shading_normal(rows: ClosureRows, otherwise: Vec3) -> Vec3 {
+    let x = rows.row[NORMAL_ROW_NORMAL as usize];
+    let y = rows.row[(NORMAL_ROW_NORMAL + 1) as usize];
+    let z = rows.row[(NORMAL_ROW_NORMAL + 2) as usize];
+    closure_unit(vec3(x, y, z), otherwise)
+}
+
+/// Radiance of a closure of a world or light, W·sr⁻¹·m⁻²: 0 if it emits nothing, or numbers
+/// that are not finite.
+#[inline]
+pub fn closure_radiance(kind: u32, rows: ClosureRows) -> Vec3 {
+    let x = rows.row[CLOSURE_ROW_WEIGHT as usize];
+    let y = rows.row[(CLOSURE_ROW_WEIGHT + 1) as usize];
+    let z = rows.row[(CLOSURE_ROW_WEIGHT + 2) as usize];
+    let weight = vec3(x, y, z);
+    let emits = kind == CLOSURE_EMISSION || kind == CLOSURE_BACKGROUND;
+    if emits && closure_finite3(weight) {
+        weight
+    } else {
+        Vec3::ZERO
+    }
+}
