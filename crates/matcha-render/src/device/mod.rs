@@ -16,5 +16,7 @@ pub mod path_ray;
 pub mod path_start;
 pub mod path_state;
 pub mod path_step;
+pub mod ray_box;
+pub mod ray_triangle;
 pub mod shading_normal;
 pub mod sobol;
