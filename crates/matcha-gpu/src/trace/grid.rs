@@ -13,6 +13,9 @@ const MARGIN: f64 = 1.0 / 256.0;
 /// The finest grid: its steps times the largest inverse of a direction are normal numbers.
 const LEAST_EXPONENT: i32 = -100;
 
+/// Steps are at least this power of two of the coordinates themselves, whose last place is 2⁻²³.
+const LEAST_RELATIVE: i32 = -30;
+
 /// A grid over the children of a node: steps are powers of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
@@ -74,10 +77,13 @@ impl Grid {
 /// Origin and exponent of an axis.
 fn finest(low: f64, high: f64) -> (f32, i32) {
     let extent = (high - low).max(f64::MIN_POSITIVE);
-    let mut exponent = ((extent / STEPS).log2().ceil() as i32).max(LEAST_EXPONENT);
+    let size = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
+    let least = (size.log2().floor() as i32 + LEAST_RELATIVE).max(LEAST_EXPONENT);
+    let mut exponent = ((extent / STEPS).log2().ceil() as i32).max(least);
     loop {
         let step = f64::from(exponent).exp2();
-        let origin = below(low - MARGIN * step);
+        // Twice the margin: what rounding takes of it must leave one.
+        let origin = below(low - 2.0 * MARGIN * step);
         let steps = (high - f64::from(origin)) / step;
         if steps + MARGIN <= STEPS {
             return (origin, exponent);

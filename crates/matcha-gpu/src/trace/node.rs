@@ -53,6 +53,20 @@ impl WideNode {
         }
     }
 
+    /// The grid of its boxes.
+    pub fn grid(&self) -> Grid {
+        let exponent = |axis: usize| (self.grid >> (8 * axis) & 255) as i32 - 127;
+        Grid {
+            origin: self.origin,
+            exponents: std::array::from_fn(exponent),
+        }
+    }
+
+    /// The root of the hierarchy of the mesh that is placed here, if it is none of eight boxes.
+    pub fn placed_root(&self) -> Option<u32> {
+        (self.grid & PLACED != 0).then(|| bytemuck::cast::<WideNode, PlacedNode>(*self).root)
+    }
+
     /// Sets a slot's box.
     pub(super) fn set_box(&mut self, slot: usize, grid: &Grid, bounds: &Bounds) {
         for (axis, [low, high]) in grid.quantise(bounds).into_iter().enumerate() {

@@ -73,7 +73,7 @@ impl WideTree {
         wide.fits()
     }
 
-    fn fits(self) -> Result<WideTree, TraceError> {
+    pub(super) fn fits(self) -> Result<WideTree, TraceError> {
         let most = STACKS[STACKS.len() - 1];
         if self.levels > most {
             let levels = self.levels;
