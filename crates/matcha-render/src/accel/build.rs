@@ -168,11 +168,14 @@ impl Builder {
     }
 }
 
+/// Coordinates beyond have squares that are no numbers, metres.
+const FARTHEST: f32 = 1e18;
+
 /// False for triangles without area, or with coordinates whose squares are no numbers.
 fn is_hittable(corners: [Vec3; 3]) -> bool {
     let [a, b, c] = corners;
     let area = (b - a).cross(c - a).length_squared();
-    let sound = |p: Vec3| p.is_finite() && p.abs().max_element() < 1e18;
+    let sound = |p: Vec3| p.is_finite() && p.abs().max_element() < FARTHEST;
     corners.iter().all(|&p| sound(p))
         && area.is_finite()
         && (b - a) != Vec3::ZERO
@@ -324,7 +327,8 @@ pub(super) fn build(scene: &Scene, options: &BuildOptions) -> Result<Accel, Acce
         for &i in users {
             let transform = scene.instances[i].transform;
             let bounds = placed_bounds(&own.triangles, &transform);
-            if !(bounds.min.is_finite() && bounds.max.is_finite()) {
+            let sound = |p: Vec3| p.is_finite() && p.abs().max_element() < FARTHEST;
+            if !(sound(bounds.min) && sound(bounds.max)) {
                 builder.dropped += own.triangles.len();
                 continue;
             }

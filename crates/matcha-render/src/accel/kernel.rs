@@ -1,14 +1,11 @@
 //! The two tests of a walk, box and triangle, in a form that any processor runs.
 
 use super::node::{Node, PACK, Pack, WIDTH};
+use crate::device::ray_box::{BOX_FAR_SLACK, box_inverse};
+use crate::device::ray_triangle::{
+    triangle_distance, triangle_inside, triangle_sides, triangle_weights,
+};
 use glam::Vec3;
-
-/// Grows the far side of a box test so that rounding never misses a box:
-/// Ize 2013, "Robust BVH ray traversal", equation 2: 1 + 2γ(3).
-pub(super) const FAR_SLACK: f32 = 1.0 + 2.0 * 3.0 * f32::EPSILON;
-
-/// The least magnitude of a direction's component in box tests: its inverse stays finite.
-const TINY: f32 = 1e-18;
 
 /// Which children a ray meets, and where it enters their boxes.
 pub(super) struct BoxHits {
@@ -38,13 +35,6 @@ pub(super) trait Kernel: Copy {
     fn triangles(&self, pack: &Pack, t_max: f32) -> PackHits;
 }
 
-/// Inverse of a direction, finite.
-#[inline(always)]
-pub(super) fn inverse(direction: Vec3) -> Vec3 {
-    let axis = |d: f32| 1.0 / if d.abs() < TINY { TINY.copysign(d) } else { d };
-    Vec3::new(axis(direction.x), axis(direction.y), axis(direction.z))
-}
-
 /// Rows of [`Node::bounds`] where the ray enters: the lower side where it goes up.
 #[inline(always)]
 pub(super) fn near_rows(inverse: Vec3) -> [usize; 3] {
@@ -65,7 +55,7 @@ pub(super) struct Portable {
 impl Kernel for Portable {
     #[inline(always)]
     fn new(origin: Vec3, direction: Vec3, t_min: f32) -> Self {
-        let inverse = inverse(direction);
+        let inverse = box_inverse(direction);
         Self {
             origin,
             direction,
@@ -85,7 +75,7 @@ impl Kernel for Portable {
             let (origin, inverse) = (self.origin[axis], self.inverse[axis]);
             for lane in 0..WIDTH {
                 entry[lane] = entry[lane].max((near[lane] - origin) * inverse);
-                exit[lane] = exit[lane].min((far[lane] - origin) * inverse * FAR_SLACK);
+                exit[lane] = exit[lane].min((far[lane] - origin) * inverse * BOX_FAR_SLACK);
             }
         }
         let mut mask = 0;
@@ -105,20 +95,14 @@ impl Kernel for Portable {
         };
         for lane in 0..PACK {
             let [a, b, c] = pack.triangle(lane).map(|corner| corner - self.origin);
-            let (edge_ca, edge_ab, edge_bc) = (c - a, a - b, b - c);
-            let u = edge_ca.cross(c + a).dot(self.direction);
-            let v = edge_ab.cross(a + b).dot(self.direction);
-            let w = edge_bc.cross(b + c).dot(self.direction);
-            let sum = u + v + w;
-            let inside = u.min(v).min(w) >= 0.0 || u.max(v).max(w) <= 0.0;
-            let normal = edge_ab.cross(edge_ca);
-            let facing = normal.dot(self.direction);
-            let t = normal.dot(a) / facing;
-            let hit = inside && sum != 0.0 && t > self.t_min && t < t_max;
+            let sides = triangle_sides(a, b, c, self.direction);
+            let t = triangle_distance(a, b, c, self.direction);
+            let weights = triangle_weights(sides);
+            let hit = triangle_inside(sides) && t > self.t_min && t < t_max;
             hits.mask |= u32::from(hit) << lane;
             hits.t[lane] = t;
-            hits.u[lane] = u / sum;
-            hits.v[lane] = v / sum;
+            hits.u[lane] = weights.x;
+            hits.v[lane] = weights.y;
         }
         hits
     }

@@ -3,8 +3,9 @@
 //! Methods are `inline(always)` without a `target_feature` of their own, so that they merge into
 //! the walk, which is compiled with the features (`traverse::walk_avx2`).
 
-use super::kernel::{BoxHits, FAR_SLACK, Kernel, PackHits, inverse, near_rows};
+use super::kernel::{BoxHits, Kernel, PackHits, near_rows};
 use super::node::{Node, PACK, Pack, WIDTH};
+use crate::device::ray_box::{BOX_FAR_SLACK, box_inverse};
 use glam::Vec3;
 use std::arch::x86_64::*;
 
@@ -73,7 +74,7 @@ unsafe fn dot(a: Lanes, b: Lanes) -> __m128 {
 impl Kernel for Avx2 {
     #[inline(always)]
     fn new(origin: Vec3, direction: Vec3, t_min: f32) -> Self {
-        let inverse = inverse(direction);
+        let inverse = box_inverse(direction);
         // SAFETY: only walks that were chosen because the processor has AVX2 construct this.
         unsafe {
             let all = |v: Vec3| {
@@ -86,7 +87,7 @@ impl Kernel for Avx2 {
             Self {
                 origin: all(origin),
                 inverse: all(inverse),
-                inverse_far: all(inverse * FAR_SLACK),
+                inverse_far: all(inverse * BOX_FAR_SLACK),
                 near: near_rows(inverse),
                 direction,
                 position: origin,

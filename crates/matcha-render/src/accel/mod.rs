@@ -19,11 +19,12 @@ mod traverse;
 mod validate;
 
 pub use build::BuildOptions;
+pub use node::{Bounds, LEAF_PACKS, Link, Node, PACK, Pack, WIDTH};
 pub use ray::{Hit, NOTHING, Ray, offset_origin, ray_kind, visibility_mask};
+pub use traverse::{Placement, Tree};
 
 use crate::scene::Scene;
-use node::{Link, Node, Pack};
-use traverse::{Isa, Placement, Tree};
+use traverse::Isa;
 
 /// Why there is no structure for a scene.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
@@ -84,7 +85,8 @@ impl Accel {
         build::build(scene, options)
     }
 
-    fn tree(&self) -> Tree<'_> {
+    /// What a walk reads, for devices that walk it in a form of their own.
+    pub fn tree(&self) -> Tree<'_> {
         Tree {
             nodes: &self.nodes,
             packs: &self.packs,

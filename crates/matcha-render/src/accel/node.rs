@@ -1,13 +1,14 @@
 //! The structure that rays walk through: nodes of eight boxes and packs of four triangles.
+//! Public for devices that walk it in a form of their own.
 
 use glam::Vec3;
 
 /// Children of a node.
-pub(super) const WIDTH: usize = 8;
+pub const WIDTH: usize = 8;
 /// Triangles of a pack.
-pub(super) const PACK: usize = 4;
+pub const PACK: usize = 4;
 /// Largest number of packs in a leaf.
-pub(super) const LEAF_PACKS: usize = 4;
+pub const LEAF_PACKS: usize = 4;
 
 /// What a child slot or a stack entry points to: two bits of kind, then an index.
 ///
@@ -17,7 +18,7 @@ pub(super) const LEAF_PACKS: usize = 4;
 /// * `RESTORE`: on the stack only, "back to world space".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
-pub(super) struct Link(pub(super) u32);
+pub struct Link(pub u32);
 
 impl Link {
     const KIND: u32 = 3 << 30;
@@ -26,49 +27,57 @@ impl Link {
     const COUNT_SHIFT: u32 = 28;
     const INDEX: u32 = (1 << 28) - 1;
     /// Nothing is there.
-    pub(super) const EMPTY: Self = Self(u32::MAX);
+    pub const EMPTY: Self = Self(u32::MAX);
     /// The walk leaves an instance.
-    pub(super) const RESTORE: Self = Self(3 << 30);
+    pub const RESTORE: Self = Self(3 << 30);
     /// Number of nodes and of packs that can be addressed.
-    pub(super) const LIMIT: usize = 1 << 28;
+    pub const LIMIT: usize = 1 << 28;
 
-    pub(super) fn node(index: usize) -> Self {
+    /// Link to an inner node.
+    pub fn node(index: usize) -> Self {
         debug_assert!(index < Self::LIMIT);
         Self(index as u32)
     }
 
-    pub(super) fn leaf(first: usize, packs: usize) -> Self {
+    /// Link to a leaf of 1 to [`LEAF_PACKS`] packs.
+    pub fn leaf(first: usize, packs: usize) -> Self {
         debug_assert!(first < Self::LIMIT && (1..=LEAF_PACKS).contains(&packs));
         Self(Self::LEAF | ((packs as u32 - 1) << Self::COUNT_SHIFT) | first as u32)
     }
 
-    pub(super) fn instance(index: usize) -> Self {
+    /// Link to a placed instance.
+    pub fn instance(index: usize) -> Self {
         debug_assert!(index < Self::LIMIT);
         Self(Self::INSTANCE | index as u32)
     }
 
+    /// True for an inner node.
     #[inline(always)]
-    pub(super) fn is_node(self) -> bool {
+    pub fn is_node(self) -> bool {
         self.0 & Self::KIND == 0
     }
 
+    /// True for a leaf.
     #[inline(always)]
-    pub(super) fn is_leaf(self) -> bool {
+    pub fn is_leaf(self) -> bool {
         self.0 & Self::KIND == Self::LEAF
     }
 
+    /// True for a placed instance.
     #[inline(always)]
-    pub(super) fn is_instance(self) -> bool {
+    pub fn is_instance(self) -> bool {
         self.0 & Self::KIND == Self::INSTANCE
     }
 
+    /// Index of the node, of the first pack, or of the placement.
     #[inline(always)]
-    pub(super) fn index(self) -> usize {
+    pub fn index(self) -> usize {
         (self.0 & Self::INDEX) as usize
     }
 
+    /// Number of packs of a leaf.
     #[inline(always)]
-    pub(super) fn packs(self) -> usize {
+    pub fn packs(self) -> usize {
         ((self.0 >> Self::COUNT_SHIFT) & 3) as usize + 1
     }
 }
@@ -77,13 +86,16 @@ impl Link {
 /// An empty slot's box is inside out, so that no ray meets it.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub(super) struct Node {
-    pub(super) bounds: [[f32; WIDTH]; 6],
-    pub(super) children: [Link; WIDTH],
+pub struct Node {
+    /// The rows.
+    pub bounds: [[f32; WIDTH]; 6],
+    /// What the children are.
+    pub children: [Link; WIDTH],
 }
 
 impl Node {
-    pub(super) const EMPTY: Self = Self {
+    /// A node without children.
+    pub const EMPTY: Self = Self {
         bounds: [
             [f32::INFINITY; WIDTH],
             [f32::NEG_INFINITY; WIDTH],
@@ -95,7 +107,8 @@ impl Node {
         children: [Link::EMPTY; WIDTH],
     };
 
-    pub(super) fn set(&mut self, slot: usize, bounds: &Bounds, link: Link) {
+    /// Sets a child.
+    pub fn set(&mut self, slot: usize, bounds: &Bounds, link: Link) {
         for axis in 0..3 {
             self.bounds[2 * axis][slot] = bounds.min[axis];
             self.bounds[2 * axis + 1][slot] = bounds.max[axis];
@@ -103,7 +116,8 @@ impl Node {
         self.children[slot] = link;
     }
 
-    pub(super) fn child_bounds(&self, slot: usize) -> Bounds {
+    /// Box of a child.
+    pub fn child_bounds(&self, slot: usize) -> Bounds {
         let row = |r: usize| self.bounds[r][slot];
         Bounds {
             min: Vec3::new(row(0), row(2), row(4)),
@@ -114,18 +128,22 @@ impl Node {
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Bounds {
-    pub(super) min: Vec3,
-    pub(super) max: Vec3,
+pub struct Bounds {
+    /// Lower corner.
+    pub min: Vec3,
+    /// Upper corner.
+    pub max: Vec3,
 }
 
 impl Bounds {
-    pub(super) const EMPTY: Self = Self {
+    /// Inside out: holds nothing.
+    pub const EMPTY: Self = Self {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
     };
 
-    pub(super) fn grow(&mut self, point: Vec3) {
+    /// Extends it to hold a point.
+    pub fn grow(&mut self, point: Vec3) {
         self.min = self.min.min(point);
         self.max = self.max.max(point);
     }
@@ -135,21 +153,25 @@ impl Bounds {
 /// Unused lanes hold triangles without area, which nothing hits.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(16))]
-pub(super) struct Pack {
-    pub(super) corners: [[[f32; PACK]; 3]; 3],
-    pub(super) primitive: [u32; PACK],
+pub struct Pack {
+    /// The rows.
+    pub corners: [[[f32; PACK]; 3]; 3],
+    /// Triangles in their meshes; `u32::MAX` in unused lanes.
+    pub primitive: [u32; PACK],
     /// Only meant for triangles in world space; inside an instance it is the instance's.
-    pub(super) instance: [u32; PACK],
+    pub instance: [u32; PACK],
 }
 
 impl Pack {
-    pub(super) const EMPTY: Self = Self {
+    /// A pack of unused lanes.
+    pub const EMPTY: Self = Self {
         corners: [[[0.0; PACK]; 3]; 3],
         primitive: [u32::MAX; PACK],
         instance: [u32::MAX; PACK],
     };
 
-    pub(super) fn set(&mut self, lane: usize, corners: [Vec3; 3], primitive: u32, instance: u32) {
+    /// Sets a triangle.
+    pub fn set(&mut self, lane: usize, corners: [Vec3; 3], primitive: u32, instance: u32) {
         for (rows, corner) in self.corners.iter_mut().zip(corners) {
             for (axis, row) in rows.iter_mut().enumerate() {
                 row[lane] = corner[axis];
@@ -159,7 +181,8 @@ impl Pack {
         self.instance[lane] = instance;
     }
 
-    pub(super) fn triangle(&self, lane: usize) -> [Vec3; 3] {
+    /// Corners of a triangle.
+    pub fn triangle(&self, lane: usize) -> [Vec3; 3] {
         std::array::from_fn(|c| {
             let rows = &self.corners[c];
             Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane])

@@ -1,5 +1,6 @@
 //! Rays and hits.
 
+use crate::device::ray_box::ray_is_sound;
 use crate::scene::Visibility;
 use glam::Vec3;
 
@@ -69,8 +70,7 @@ impl Ray {
     /// False if a coordinate is not a finite number or the direction is zero: such a ray hits nothing.
     #[inline(always)]
     pub(super) fn is_sound(&self) -> bool {
-        let length_squared = self.direction.length_squared();
-        self.origin.is_finite() && length_squared.is_finite() && length_squared > 0.0
+        ray_is_sound(self.origin, self.direction)
     }
 }
 

@@ -11,24 +11,28 @@ pub(super) const STACK: usize = 384;
 
 /// A mesh that is placed and not copied into world space.
 #[derive(Clone, Debug)]
-pub(super) struct Placement {
+pub struct Placement {
     /// World to object.
-    pub(super) inverse: Affine3A,
+    pub inverse: Affine3A,
     /// Root of the mesh's hierarchy.
-    pub(super) root: Link,
+    pub root: Link,
     /// Index into `Scene::instances`.
-    pub(super) instance: u32,
+    pub instance: u32,
 }
 
 /// What a walk reads.
-#[derive(Clone, Copy)]
-pub(super) struct Tree<'a> {
-    pub(super) nodes: &'a [Node],
-    pub(super) packs: &'a [Pack],
-    pub(super) placements: &'a [Placement],
+#[derive(Clone, Copy, Debug)]
+pub struct Tree<'a> {
+    /// Nodes of all hierarchies.
+    pub nodes: &'a [Node],
+    /// Triangles of all leaves.
+    pub packs: &'a [Pack],
+    /// Instances that are not copied into world space.
+    pub placements: &'a [Placement],
     /// Visibility bits per instance.
-    pub(super) masks: &'a [u8],
-    pub(super) root: Link,
+    pub masks: &'a [u8],
+    /// Where a walk starts; [`Link::EMPTY`] in an empty scene.
+    pub root: Link,
 }
 
 /// A child to visit: entry distance in the upper half, link in the lower, so that integers order

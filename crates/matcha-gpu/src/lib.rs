@@ -1,0 +1,3 @@
+//! The GPU.
+
+pub mod trace;
