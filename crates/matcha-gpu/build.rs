@@ -1,0 +1,156 @@
+//! Translates the workspace's device code into WGSL and has naga validate it together with
+//! the host layers, so that a mistake in either is an error of `cargo build` at its line.
+
+use matcha_wgsl::{
+    Module, Operations, Source, TranslateError, Translation, check, operations, translate,
+};
+use memory::placement::{Placement, PlacementLimits};
+use memory::section::declarations;
+use naga::valid::Capabilities;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+// What the crate puts kernels together with at run time.
+#[path = "src/memory"]
+#[allow(dead_code)]
+mod memory {
+    pub mod accessors;
+    pub mod placement;
+    pub mod section;
+}
+#[path = "src/shader/prelude.rs"]
+#[allow(dead_code)]
+mod prelude;
+
+/// Folders of device modules, from the folder of crates.
+const DEVICE_MODULES: [&str; 3] = [
+    "matcha-shade/src/device",
+    "matcha-cache/src/device",
+    "matcha-render/src/device",
+];
+
+/// Capabilities that kernels for devices with 64-bit atomic operations may use.
+const ATOMICS_64: Capabilities = Capabilities::SHADER_INT64
+    .union(Capabilities::SHADER_INT64_ATOMIC_MIN_MAX)
+    .union(Capabilities::SHADER_INT64_ATOMIC_ALL_OPS);
+
+fn main() {
+    if let Err(error) = build() {
+        // One line each: cargo shows them as errors of this crate.
+        for line in error.to_string().lines() {
+            println!("cargo::error={line}");
+        }
+    }
+}
+
+fn build() -> Result<(), Box<dyn Error>> {
+    let crates = PathBuf::from("..");
+    let mut modules = Vec::new();
+    for folder in DEVICE_MODULES {
+        modules.extend(files(&crates, folder, "rs")?);
+    }
+    let device = translate(&modules)?;
+    let table = file(&crates, "matcha-shade/src/ops.rs")?;
+    let families = files(&crates, "matcha-shade/src/ops", "rs")?;
+    let operations = operations(&table, &families, &device)?;
+    let host_layers = files(&crates, "matcha-gpu/src/wgsl", "wgsl")?;
+    for atomics_64 in [false, true] {
+        validate(&device, &operations, &host_layers, atomics_64)?;
+    }
+    embed(&device, &operations, &host_layers)
+}
+
+/// The files of a folder, named from the workspace's root, in the order of their names.
+fn files(crates: &Path, folder: &str, extension: &str) -> Result<Vec<Module>, Box<dyn Error>> {
+    let path = crates.join(folder);
+    println!("cargo::rerun-if-changed={}", path.display());
+    let entries = std::fs::read_dir(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let mut names = Vec::new();
+    for entry in entries {
+        let name = entry?.file_name().into_string().unwrap_or_default();
+        if Path::new(&name).extension().is_some_and(|e| e == extension) {
+            names.push(name);
+        }
+    }
+    names.sort();
+    names
+        .iter()
+        .map(|name| file(crates, &format!("{folder}/{name}")))
+        .collect()
+}
+
+fn file(crates: &Path, path: &str) -> Result<Module, Box<dyn Error>> {
+    let full = crates.join(path);
+    println!("cargo::rerun-if-changed={}", full.display());
+    let source = std::fs::read_to_string(&full).map_err(|e| format!("{}: {e}", full.display()))?;
+    Ok(Module {
+        path: format!("crates/{path}"),
+        source,
+    })
+}
+
+/// Has naga look at everything at once, with accessors of all sections that are declared.
+fn validate(
+    device: &Translation,
+    operations: &Operations,
+    host_layers: &[Module],
+    atomics_64: bool,
+) -> Result<(), Box<dyn Error>> {
+    let mut all = device.source.clone();
+    all.append(&operations.source());
+    all.append(&Source::written("prelude of kernels", &prelude::text()));
+    let types = memory::accessors::shared_types(atomics_64);
+    all.append(&Source::written("accessors", &types));
+    let mut sections = Vec::new();
+    for layer in host_layers {
+        if !prelude::belongs(&layer.path, atomics_64) {
+            continue;
+        }
+        all.append(&Source::written(&layer.path, &layer.source));
+        let declared = declarations(&layer.source).map_err(|e| format!("{}: {e}", layer.path))?;
+        sections.extend(declared.into_iter().map(|declaration| (declaration, 1)));
+    }
+    let unlimited = PlacementLimits {
+        binding_bytes: u64::from(u32::MAX),
+        storage_buffers: u32::MAX,
+        uniform_bytes: u64::MAX,
+    };
+    let placement = Placement::new(&sections, &unlimited)?;
+    let accessors = memory::accessors::accessors(&placement, 1);
+    all.append(&Source::written("accessors", &accessors));
+    let capabilities = if atomics_64 {
+        ATOMICS_64
+    } else {
+        Capabilities::empty()
+    };
+    check(&all, capabilities).map_err(|error: TranslateError| error)?;
+    Ok(())
+}
+
+/// Writes what the crate includes.
+fn embed(
+    device: &Translation,
+    operations: &Operations,
+    host_layers: &[Module],
+) -> Result<(), Box<dyn Error>> {
+    let out = PathBuf::from(std::env::var("OUT_DIR")?);
+    let mut code = device.source.clone();
+    code.append(&operations.source());
+    std::fs::write(out.join("device.wgsl"), code.text())?;
+    let mut rust = String::from(
+        "pub const DEVICE_CODE: &str = include_str!(concat!(env!(\"OUT_DIR\"), \"/device.wgsl\"));\n\
+         pub const HOST_LAYERS: &[(&str, &str)] = &[\n",
+    );
+    let root = std::env::var("CARGO_MANIFEST_DIR")?;
+    for layer in host_layers {
+        let name = layer.path.rsplit('/').next().unwrap_or_default();
+        let path = Path::new(&root).join("src/wgsl").join(name);
+        rust += &format!(
+            "    ({name:?}, include_str!({:?})),\n",
+            path.display().to_string()
+        );
+    }
+    rust += "];\n";
+    std::fs::write(out.join("embedded.rs"), rust)?;
+    Ok(())
+}

@@ -1,0 +1,233 @@
+//! An open device: commands go in, and nobody waits for it forever.
+
+use crate::adapter::{Adapter, AdapterReport, Kind};
+use crate::error::{GpuError, one_line};
+use crate::shader::prelude::ARGUMENTS;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How long a GPU may be silent. Dispatches are cut to a tenth of a second, so that a
+/// whole batch of them takes a few seconds at most.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// How long a driver on the processor may be: it shares it with everything else.
+const SOFTWARE_PATIENCE: Duration = Duration::from_secs(900);
+/// Between two looks whether the device was lost.
+const LOOK_EVERY: Duration = Duration::from_millis(500);
+
+/// An open device; clones are the same device.
+#[derive(Clone)]
+pub struct Device {
+    shared: Arc<Shared>,
+}
+
+struct Shared {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    report: AdapterReport,
+    key: Option<String>,
+    trouble: Arc<Mutex<Option<GpuError>>>,
+    patience: Duration,
+    arguments_layout: wgpu::BindGroupLayout,
+}
+
+impl Device {
+    /// Opens an adapter with everything of it that Matcha uses.
+    ///
+    /// # Errors
+    /// If the driver refuses.
+    pub fn open(adapter: &Adapter) -> Result<Device, GpuError> {
+        let report = adapter.report().clone();
+        let used = wgpu::Features::SHADER_INT64
+            | wgpu::Features::SHADER_INT64_ATOMIC_ALL_OPS
+            | wgpu::Features::SHADER_INT64_ATOMIC_MIN_MAX
+            | wgpu::Features::TIMESTAMP_QUERY
+            | wgpu::Features::PIPELINE_CACHE;
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("matcha"),
+            required_features: adapter.handle.features() & used,
+            required_limits: adapter.handle.limits(),
+            memory_hints: wgpu::MemoryHints::MemoryUsage,
+            ..Default::default()
+        };
+        let opened = pollster::block_on(adapter.handle.request_device(&descriptor));
+        let (device, queue) = opened.map_err(|error| GpuError::Refused {
+            adapter: report.name.clone(),
+            message: one_line(&error),
+        })?;
+        let trouble = Arc::new(Mutex::new(None));
+        watch(&device, &trouble);
+        let patience = if report.kind == Kind::Software {
+            SOFTWARE_PATIENCE
+        } else {
+            PATIENCE
+        };
+        let key = wgpu::util::pipeline_cache_key(&adapter.handle.get_info());
+        Ok(Device {
+            shared: Arc::new(Shared {
+                arguments_layout: arguments_layout(&device),
+                device,
+                queue,
+                report,
+                key,
+                trouble,
+                patience,
+            }),
+        })
+    }
+
+    /// What it is and offers.
+    pub fn report(&self) -> &AdapterReport {
+        &self.shared.report
+    }
+
+    /// wgpu's device.
+    pub fn raw(&self) -> &wgpu::Device {
+        &self.shared.device
+    }
+
+    /// wgpu's queue.
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.shared.queue
+    }
+
+    /// The layout of group 0 of every kernel.
+    pub(crate) fn arguments_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.shared.arguments_layout
+    }
+
+    /// Names the driver and device that compiled kernels are good for.
+    pub(crate) fn cache_key(&self) -> Option<&str> {
+        self.shared.key.as_deref()
+    }
+
+    /// True if both are the same open device.
+    pub fn is(&self, other: &Device) -> bool {
+        Arc::ptr_eq(&self.shared, &other.shared)
+    }
+
+    /// Creates something of a size, with all that goes wrong as an error.
+    ///
+    /// # Errors
+    /// If there is no memory, or the device refuses.
+    pub(crate) fn create<T>(
+        &self,
+        what: &str,
+        bytes: u64,
+        create: impl FnOnce(&wgpu::Device) -> T,
+    ) -> Result<T, GpuError> {
+        let device = self.raw();
+        let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
+        let invalid = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let created = create(device);
+        let invalid = pollster::block_on(invalid.pop());
+        let internal = pollster::block_on(internal.pop());
+        if pollster::block_on(memory.pop()).is_some() {
+            return Err(GpuError::OutOfMemory {
+                what: what.to_owned(),
+                bytes,
+            });
+        }
+        self.trouble()?;
+        match invalid.or(internal) {
+            None => Ok(created),
+            Some(error) => Err(GpuError::Invalid {
+                what: what.to_owned(),
+                message: one_line(&error),
+            }),
+        }
+    }
+
+    /// Hands commands over.
+    pub fn submit(&self, commands: wgpu::CommandEncoder) -> wgpu::SubmissionIndex {
+        self.queue().submit([commands.finish()])
+    }
+
+    /// Waits until a submission is done.
+    ///
+    /// # Errors
+    /// If the device is lost, refused a command, or stays silent.
+    pub fn wait(&self, submission: &wgpu::SubmissionIndex) -> Result<(), GpuError> {
+        let start = Instant::now();
+        loop {
+            let poll = wgpu::PollType::Wait {
+                submission_index: Some(submission.clone()),
+                timeout: Some(LOOK_EVERY),
+            };
+            let polled = self.raw().poll(poll);
+            self.trouble()?;
+            match polled {
+                Ok(_) => return Ok(()),
+                Err(wgpu::PollError::Timeout) => {}
+                Err(error) => {
+                    return Err(GpuError::Invalid {
+                        what: "to wait".to_owned(),
+                        message: one_line(&error),
+                    });
+                }
+            }
+            if start.elapsed() > self.shared.patience {
+                return Err(GpuError::Silent {
+                    waited: start.elapsed(),
+                });
+            }
+        }
+    }
+
+    /// What went wrong since the device was opened, if anything did.
+    pub fn trouble(&self) -> Result<(), GpuError> {
+        let trouble = self.shared.trouble.lock();
+        match &*trouble.unwrap_or_else(PoisonError::into_inner) {
+            None => Ok(()),
+            Some(error) => Err(error.clone()),
+        }
+    }
+}
+
+/// A dispatch's arguments: a piece of a buffer with those of a whole batch.
+fn arguments_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("arguments"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: true,
+                min_binding_size: std::num::NonZeroU64::new(4 * ARGUMENTS as u64),
+            },
+            count: None,
+        }],
+    })
+}
+
+/// Notes the first thing that goes wrong outside of any scope.
+fn watch(device: &wgpu::Device, trouble: &Arc<Mutex<Option<GpuError>>>) {
+    let note = |trouble: &Mutex<Option<GpuError>>, error: GpuError| {
+        let mut first = trouble.lock().unwrap_or_else(PoisonError::into_inner);
+        first.get_or_insert(error);
+    };
+    let lost = trouble.clone();
+    device.set_device_lost_callback(move |reason, message| {
+        // Dropping the last handle is no loss.
+        if reason != wgpu::DeviceLostReason::Destroyed {
+            let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+            note(&lost, GpuError::Lost { message });
+        }
+    });
+    let refused = trouble.clone();
+    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+        let message = one_line(&error);
+        let error = match error {
+            wgpu::Error::OutOfMemory { .. } => GpuError::OutOfMemory {
+                what: "its work".to_owned(),
+                bytes: 0,
+            },
+            _ => GpuError::Invalid {
+                what: "a command".to_owned(),
+                message,
+            },
+        };
+        note(&refused, error);
+    }));
+}
