@@ -2,8 +2,10 @@
 
 use super::Frame;
 use super::path::path_clamped;
-use super::worker::{Emitter, LightTask, SurfaceTask, Worker};
+use super::worker::{LightTask, SurfaceTask, Worker};
 use crate::accel::{Hit, Ray, ray_kind};
+use crate::device::light_sample::{LIGHT_EMITS_SURFACE, LIGHT_EMITS_TREE, LIGHT_EMITS_WORLD};
+use crate::device::path_shade::{ShadowTask, path_task_through};
 use glam::Vec3;
 
 impl Worker {
@@ -12,16 +14,17 @@ impl Worker {
         let mut tasks = std::mem::take(&mut self.light_tasks);
         self.evaluate_emitters(frame, &mut tasks);
         self.counts.rays += tasks.len() as u64;
-        tasks.retain(|task| {
-            let blocked = task.casts_shadow && frame.prepared.accel.occluded(&task.ray);
-            task.value != Vec3::ZERO && !blocked
+        tasks.retain(|LightTask { shadow, .. }| {
+            let ray = shadow_ray(shadow, ray_kind::SHADOW);
+            let blocked = shadow.casts_shadow && frame.prepared.accel.occluded(&ray);
+            shadow.value != Vec3::ZERO && !blocked
         });
         if frame.has_transparent_shadows() {
             self.attenuate(frame, &mut tasks);
         }
-        for task in tasks.drain(..) {
-            let path = &mut self.paths[task.path as usize];
-            path.radiance += path_clamped(task.value, task.bounce, frame.rules());
+        for LightTask { path, shadow } in tasks.drain(..) {
+            let path = &mut self.paths[path as usize];
+            path.radiance += path_clamped(shadow.value, shadow.bounce, frame.rules());
         }
         self.light_tasks = tasks;
     }
@@ -30,28 +33,27 @@ impl Worker {
     fn evaluate_emitters(&mut self, frame: &Frame, tasks: &mut [LightTask]) {
         let mut waiting: Vec<(u32, Hit, usize)> = Vec::new();
         let mut world = Vec::new();
-        let mut lights = Vec::new();
-        for (i, task) in tasks.iter().enumerate() {
-            match task.emitter {
-                Emitter::Known => {}
-                Emitter::Light(..) => lights.push(i),
-                Emitter::Surface(hit) => waiting.push((frame.material_of(&hit), hit, i)),
-                Emitter::World => world.push(i),
+        for (i, LightTask { shadow, .. }) in tasks.iter_mut().enumerate() {
+            match shadow.emits {
+                LIGHT_EMITS_SURFACE => {
+                    let hit = emitter_hit(shadow);
+                    waiting.push((frame.material_of(&hit), hit, i));
+                }
+                LIGHT_EMITS_WORLD => world.push(i),
+                LIGHT_EMITS_TREE => {
+                    let (direction, distance) = (shadow.direction, shadow.distance);
+                    let networks = &mut self.networks;
+                    shadow.value *=
+                        networks.light_radiance(frame, shadow.light, direction, distance);
+                }
+                _ => {}
             }
         }
         if !world.is_empty() {
-            let directions = world.iter().map(|&i| tasks[i].ray.direction);
+            let directions = world.iter().map(|&i| tasks[i].shadow.direction);
             self.networks.world_of_directions(frame, directions);
             for (k, &i) in world.iter().enumerate() {
-                tasks[i].value *= self.networks.world_radiance(k);
-            }
-        }
-        for i in lights {
-            if let Emitter::Light(emission, distance) = tasks[i].emitter {
-                let direction = tasks[i].ray.direction;
-                tasks[i].value *= self
-                    .networks
-                    .light_radiance(frame, &emission, direction, distance);
+                tasks[i].shadow.value *= self.networks.world_radiance(k);
             }
         }
         waiting.sort_unstable_by_key(|&(material, _, i)| (material, i));
@@ -59,22 +61,24 @@ impl Worker {
             for group in same.chunks(super::shade::GROUP) {
                 let points = group
                     .iter()
-                    .map(|&(_, hit, i)| (hit, tasks[i].ray.direction));
+                    .map(|&(_, hit, i)| (hit, tasks[i].shadow.direction));
                 self.networks.emission_of_points(frame, same[0].0, points);
                 for (k, &(_, _, i)) in group.iter().enumerate() {
-                    tasks[i].value *= self.networks.emission(k);
+                    tasks[i].shadow.value *= self.networks.emission(k);
                 }
             }
         }
     }
 
     /// Weakens light by the transparent surfaces on its way, one layer after the other for
-    /// all rays together; drops rays that meet too many or an opaque one.
+    /// all rays together; drops rays that meet too many or an opaque one. Lights that cast no
+    /// shadows pass everything.
     fn attenuate(&mut self, frame: &Frame, tasks: &mut Vec<LightTask>) {
         let mut rays: Vec<(usize, Ray)> = tasks
             .iter()
             .enumerate()
-            .map(|(i, task)| (i, transparent_ray(&task.ray)))
+            .filter(|(_, task)| task.shadow.casts_shadow)
+            .map(|(i, task)| (i, shadow_ray(&task.shadow, ray_kind::TRANSPARENT_SHADOW)))
             .collect();
         while !rays.is_empty() {
             let mut layer: Vec<SurfaceTask> = Vec::new();
@@ -96,9 +100,9 @@ impl Worker {
                 debug_assert_eq!(*i, task.path as usize);
                 step_behind(ray, &task.hit);
             }
-            rays.retain(|&(i, _)| tasks[i].value != Vec3::ZERO);
+            rays.retain(|&(i, _)| tasks[i].shadow.value != Vec3::ZERO);
         }
-        tasks.retain(|task| task.value != Vec3::ZERO);
+        tasks.retain(|task| task.shadow.value != Vec3::ZERO);
     }
 
     /// Evaluates the transparency of one layer of hits; `layer` keeps its order.
@@ -110,28 +114,37 @@ impl Worker {
                 let material = layer[group[0]].material;
                 let points = group
                     .iter()
-                    .map(|&k| (layer[k].hit, tasks[layer[k].path as usize].ray.direction));
+                    .map(|&k| (layer[k].hit, tasks[layer[k].path as usize].shadow.direction));
                 self.networks
                     .transparency_of_points(frame, material, points);
                 for (n, &k) in group.iter().enumerate() {
-                    let task = &mut tasks[layer[k].path as usize];
                     let through = self.networks.transparency(n);
-                    task.value = if task.transparent == 0 {
-                        Vec3::ZERO
-                    } else {
-                        task.value * through
-                    };
-                    task.transparent = task.transparent.saturating_sub(1);
+                    path_task_through(&mut tasks[layer[k].path as usize].shadow, through);
                 }
             }
         }
     }
 }
 
-fn transparent_ray(ray: &Ray) -> Ray {
+fn shadow_ray(shadow: &ShadowTask, mask: u8) -> Ray {
     Ray {
-        mask: ray_kind::TRANSPARENT_SHADOW,
-        ..*ray
+        origin: shadow.origin,
+        direction: shadow.direction,
+        t_min: 0.0,
+        t_max: shadow.t_max,
+        mask,
+        excluded: shadow.leaves,
+    }
+}
+
+/// The point of an emissive triangle that a task asks for.
+fn emitter_hit(shadow: &ShadowTask) -> Hit {
+    Hit {
+        instance: shadow.instance,
+        primitive: shadow.primitive,
+        t: shadow.distance,
+        u: shadow.uv.x,
+        v: shadow.uv.y,
     }
 }
 

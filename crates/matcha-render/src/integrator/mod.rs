@@ -8,24 +8,23 @@
 mod direct;
 mod networks;
 pub mod path;
-mod sample;
 mod shade;
 pub mod worker;
 
 pub use networks::Networks;
 
-use crate::accel::{Hit, Ray};
+use crate::accel::{Hit, Ray, visibility_mask};
+use crate::device::path_meet::path_info;
 use crate::device::path_start::path_start;
 use crate::device::path_step::path_ray_mask;
 use crate::film::{PixelSums, Tile, filter::FilterTable};
-use crate::light::RayKind;
 use crate::prepare::Prepared;
 use crate::scene::{Scene, Settings};
 use crate::surface::PathInfo;
 use glam::Vec3;
 use matcha_cache::Table;
 use matcha_shade::program::Program;
-use path::{Path, PathSettings, flags};
+use path::{Path, PathSettings};
 
 /// The material cache as a frame uses it.
 #[derive(Clone, Copy)]
@@ -80,8 +79,9 @@ impl Frame<'_> {
         self.prepared.has_transparent_shadows()
     }
 
-    pub(crate) fn world_is_seen_by(&self, path: &Path) -> bool {
-        path.ray_kind().sees(&self.scene().world.visibility)
+    /// Kinds of rays that see the world: `RAY_` bits.
+    pub(crate) fn world_visibility(&self) -> u32 {
+        visibility_mask(&self.scene().world.visibility).into()
     }
 
     /// What the rules of paths ask of the settings.
@@ -110,33 +110,9 @@ impl Path {
         }
     }
 
-    /// Kind of the ray for the visibility of what it meets.
-    pub(crate) fn ray_kind(&self) -> RayKind {
-        if self.flags & flags::CAMERA != 0 {
-            RayKind::Camera
-        } else if self.flags & flags::TRANSMIT != 0 {
-            RayKind::Transmission
-        } else if self.flags & flags::DIFFUSE != 0 {
-            RayKind::Diffuse
-        } else {
-            RayKind::Glossy
-        }
-    }
-
     /// What networks may know of the path whose last segment has a length (metres).
     pub(crate) fn info(&self, ray_length: f32) -> PathInfo {
-        PathInfo {
-            direction: self.direction,
-            flags: self.flags,
-            cone_width: self.cone_width,
-            cone_spread: self.cone_spread,
-            ray_length,
-            bounce: self.bounce,
-            diffuse: self.diffuse,
-            glossy: self.glossy,
-            transmission: self.transmission,
-            transparent: self.transparent,
-        }
+        path_info(self, ray_length)
     }
 
     /// Adds the finished path to its pixel.

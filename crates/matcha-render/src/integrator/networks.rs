@@ -1,12 +1,12 @@
 //! Node networks over groups of points: input rows, the machine, output rows, closures.
 
 use super::Frame;
-use super::path::{Path, flags};
+use super::path::Path;
 use super::worker::SurfaceTask;
 use crate::accel::Hit;
 use crate::closure::{self, ClosureContext, LobeSet, code, prepare_closure};
 use crate::device::closure_rows::{ClosureRows, closure_radiance, closure_shading_normal};
-use crate::light::Emission;
+use crate::device::path_meet::path_shadow_info;
 use crate::node_cache::{MaterialCache, Scratch};
 use crate::surface::{BackgroundRay, PathInfo, SurfacePoint, fill_background};
 use glam::Vec3;
@@ -137,7 +137,7 @@ impl Networks {
         self.rays.extend(
             escaped
                 .iter()
-                .map(|&path| paths[path as usize].info(f32::INFINITY)),
+                .map(|&path| paths[path as usize].info(f32::MAX)),
         );
         self.world(frame);
     }
@@ -145,7 +145,8 @@ impl Networks {
     /// Evaluates the world in directions that next-event estimation sampled.
     pub fn world_of_directions(&mut self, frame: &Frame, directions: impl Iterator<Item = Vec3>) {
         self.rays.clear();
-        self.rays.extend(directions.map(shadow_info));
+        self.rays
+            .extend(directions.map(|d| path_shadow_info(d, 0.0)));
         self.world(frame);
     }
 
@@ -184,34 +185,26 @@ impl Networks {
             .extend((0..n).map(|i| radiance(program, &self.outputs, i)));
     }
 
-    /// Radiance of an analytic light in the direction of a ray that meets it at `distance`.
+    /// What the node tree of an analytic light emits in the direction of a ray that meets it
+    /// at `distance`; white where it has none.
     ///
     /// A light's tree reads the direction as the world's does: lights have no surface that
     /// programs could ask about.
     pub fn light_radiance(
         &mut self,
         frame: &Frame,
-        emission: &Emission,
+        light: u32,
         direction: Vec3,
         distance: f32,
     ) -> Vec3 {
-        let Emission::Tree { light, factor, .. } = *emission else {
-            return match *emission {
-                Emission::Constant(radiance) => radiance,
-                _ => Vec3::ZERO,
-            };
-        };
         let scene_light = frame.prepared.lights.analytic()[light as usize].scene_light;
         let Some(program) = frame.prepared.light_program(scene_light) else {
-            return factor;
+            return Vec3::ONE;
         };
         self.rays.clear();
-        self.rays.push(PathInfo {
-            ray_length: distance,
-            ..shadow_info(direction)
-        });
+        self.rays.push(path_shadow_info(direction, distance));
         self.run_background(frame, program);
-        factor * self.colors[0]
+        self.colors[0]
     }
 
     /// Radiance of the world in direction `i`.
@@ -261,7 +254,7 @@ impl Networks {
         self.evaluate(
             frame,
             material,
-            points.map(|(hit, towards)| (hit, shadow_info(towards))),
+            points.map(|(hit, towards)| (hit, path_shadow_info(towards, 0.0))),
         );
     }
 
@@ -283,17 +276,6 @@ impl Networks {
 impl Default for Networks {
     fn default() -> Self {
         Self::new()
-    }
-}
-
-/// What a shadow ray knows.
-fn shadow_info(direction: Vec3) -> PathInfo {
-    PathInfo {
-        direction,
-        flags: flags::SHADOW,
-        // As wide as the cone after a diffuse bounce: what light carries is blurred anyway.
-        cone_spread: crate::device::surface_cone::DIFFUSE_SPREAD,
-        ..Default::default()
     }
 }
 

@@ -1,8 +1,6 @@
 //! A path in flight: device code's state, and what only the host asks of it.
 
-pub use crate::device::path_state::{
-    Path, PathSettings, ScatterKind, path_clamped, path_power_heuristic,
-};
+pub use crate::device::path_state::{Path, PathSettings, path_clamped};
 use crate::scene::Settings;
 
 /// Kind of the ray that a path currently follows, and what happened to the path before; the

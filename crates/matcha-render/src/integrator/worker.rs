@@ -2,12 +2,17 @@
 
 use super::Frame;
 use super::networks::Networks;
-use super::path::{Path, flags};
-use crate::accel::{Hit, Ray};
+use super::path::Path;
+use crate::accel::Hit;
 use crate::closure::LobeSet;
-use crate::device::path_state::{path_add_met, path_uncover};
+use crate::device::light_view::LIGHT_NONE;
+use crate::device::path_meet::{
+    PathMeeting, path_leaves_film, path_meet_lights, path_meet_suns, path_meet_world,
+};
+use crate::device::path_shade::ShadowTask;
+use crate::device::path_state::path_add_met;
 use crate::film::{PixelSums, Tile};
-use crate::light::{Emission, LightHit};
+
 use glam::Vec3;
 use matcha_cache::CacheCounts;
 use std::ops::Range;
@@ -33,32 +38,8 @@ pub struct SurfaceTask {
 pub struct LightTask {
     /// Index into the batch.
     pub path: u32,
-    /// Contribution if nothing is in between; without the radiance where that is still
-    /// to be evaluated.
-    pub value: Vec3,
-    /// The shadow ray.
-    pub ray: Ray,
-    /// Objects block the light.
-    pub casts_shadow: bool,
-    /// Bounces of the path at the surface, for the clamps.
-    pub bounce: u32,
-    /// Transparent surfaces that the ray may still pass.
-    pub transparent: u32,
-    /// Emission that must be evaluated first.
-    pub emitter: Emitter,
-}
-
-/// What must be evaluated to know a light sample's radiance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Emitter {
-    /// Nothing: it is part of the value.
-    Known,
-    /// A point on a triangle.
-    Surface(Hit),
-    /// The world in the ray's direction.
-    World,
-    /// An analytic light's node tree, in the ray's direction and at a distance, metres.
-    Light(Emission, f32),
+    /// The shadow ray, and what it brings.
+    pub shadow: ShadowTask,
 }
 
 /// Counts of one thread.
@@ -228,51 +209,37 @@ impl Default for Worker {
 
 /// Adds the analytic lights that a path's ray meets before `reach`; rays go through them.
 fn add_lights_on_the_way(frame: &Frame, networks: &mut Networks, path: &mut Path, reach: f32) {
-    let lights = &frame.prepared.lights;
-    if lights.nothing_to_meet() {
-        return;
-    }
-    let kind = path.ray_kind();
-    let (origin, direction) = (path.origin, path.direction);
+    let lights = frame.prepared.lights.view();
     let mut from = path.t_min;
-    while let Some((light, t)) = lights.intersect(origin, direction, from, reach, kind) {
-        if let Some(hit) = lights.hit(light, path.mis_origin, path.mis_normal, direction, t) {
-            add_light(frame, networks, path, &hit, t);
+    loop {
+        let met = path_meet_lights(lights, path, from, reach, frame.rules());
+        if met.light == LIGHT_NONE {
+            return;
         }
-        from = t.next_up();
+        add_tree_light(frame, networks, path, &met);
+        from = met.next;
     }
 }
 
-fn add_light(
-    frame: &Frame,
-    networks: &mut Networks,
-    path: &mut Path,
-    hit: &LightHit,
-    distance: f32,
-) {
-    if path.bounce > hit.max_bounces {
-        return;
-    }
-    let radiance = networks.light_radiance(frame, &hit.radiance, path.direction, distance);
-    path_add_met(path, radiance, hit.pdf, frame.rules());
+fn add_tree_light(frame: &Frame, networks: &mut Networks, path: &mut Path, met: &PathMeeting) {
+    let tree = networks.light_radiance(frame, met.light, path.direction, met.distance);
+    path_add_met(path, met.factor * tree, met.pdf, frame.rules());
 }
 
 fn add_world(frame: &Frame, networks: &mut Networks, path: &mut Path, radiance: Vec3) {
-    if path.flags & flags::CAMERA != 0 && frame.settings().transparent_film {
-        path_uncover(path, 1.0);
+    if path_leaves_film(path, frame.rules()) {
         return;
     }
-    let lights = &frame.prepared.lights;
-    let (p, n, direction) = (path.mis_origin, path.mis_normal, path.direction);
-    for sun in lights.escaped(p, n, direction, path.ray_kind()) {
-        add_light(frame, networks, path, &sun, f32::INFINITY);
+    let lights = frame.prepared.lights.view();
+    let mut sun = 0;
+    loop {
+        let met = path_meet_suns(lights, path, sun, frame.rules());
+        if met.light == LIGHT_NONE {
+            break;
+        }
+        add_tree_light(frame, networks, path, &met);
+        sun = met.next as u32;
     }
-    if frame.world_is_seen_by(path) {
-        path_add_met(
-            path,
-            radiance,
-            lights.pdf_world(p, n, direction),
-            frame.rules(),
-        );
-    }
+    let visibility = frame.world_visibility();
+    path_meet_world(lights, path, radiance, visibility, frame.rules());
 }
