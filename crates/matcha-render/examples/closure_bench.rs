@@ -58,7 +58,7 @@ fn measure(name: &str, kind: ClosureKind, named: &[(&str, f32)]) {
         let start = Instant::now();
         for (frame, u) in &hits {
             set.begin(frame);
-            prepare_closure(kind, &rows, frame, &context, &mut set);
+            prepare_closure(kind, &rows, &context, &mut set);
             if what == 1 {
                 black_box(set.eval(Vec3::new(u.x * 0.5, u.y * 0.5, 0.7).normalize()));
             } else if what == 2 {
