@@ -1,6 +1,6 @@
 //! Small device modules and what becomes of them.
 
-use matcha_wgsl::{Module, check, translate};
+use matcha_wgsl::{Access, FieldPlace, Module, Source, Translation, Value, check, translate};
 use naga::valid::Capabilities;
 
 /// The WGSL of a module, which naga accepts.
@@ -138,6 +138,9 @@ pub fn arrays(s: [f32; 3], k: u32) -> Pair {
     let weights = [t[0], min(s[0], s[1]), 1.0];
     let mut pair = Pair { weights, at: Vec3 { z: 1.0, x: s[0], y: 2.0 }, on: k == 0 };
     pair.at.x = pair.at.x * 2.0;
+    let mut scaled = pair.at;
+    scaled *= s[0];
+    pair.at += scaled;
     pair.weights[0] = Vec3::splat(s[1]).y + Vec3::ZERO.z;
     pair
 }"
@@ -280,4 +283,80 @@ pub fn twice(pair: &mut Pair) {
 }
 pub fn twice_more(pair: &mut Pair) { swap(pair); }"
     ));
+}
+
+const PARTICLES: &str = "
+pub struct Spot { pub at: Vec2, pub on: bool }
+pub struct Path { pub spots: [Spot; 2], pub words: [u32; 9], pub kind: i32 }
+pub struct Grid<'a> { pub cells: &'a [Spot2], pub size: u32, pub low: Vec3, pub count: u32 }
+pub struct Spot2 { pub at: Vec2 }
+pub const SIZES: [u32; 2] = [SIZE, 1 << 4];
+const SIZE: u32 = 3 * 5 - 1;
+pub const LOW: f32 = -1.5 * 2.0;
+pub fn cell(grid: Grid, i: u32) -> f32 { grid.cells[i as usize].at.x * grid.low.z }
+pub fn cells(grid: Grid) -> u32 { grid.cells.len() as u32 / grid.size }
+pub fn both(grid: Grid) -> f32 { cell(grid, cells(grid)) }";
+
+fn particles() -> Translation {
+    let module = Module {
+        path: "golden.rs".to_owned(),
+        source: PARTICLES.to_owned(),
+    };
+    translate(&[module]).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn columns() {
+    let translation = particles();
+    let columns = translation.columns("Path", "paths").expect("the struct");
+    let mut whole = translation.needed(["Path"]).source;
+    whole.append(&columns.source);
+    whole.append(&Source::written(
+        "host.wgsl",
+        "fn paths_get(word: u32, i: u32) -> u32 { return word + i; }
+         fn paths_set(word: u32, i: u32, value: u32) { }",
+    ));
+    check(&whole, Capabilities::empty()).unwrap_or_else(|e| panic!("{e}\n{}", whole.text()));
+    insta::assert_snapshot!(columns.source.text());
+    assert_eq!(columns.layout.words, 16);
+    assert_eq!(columns.layout.offset("spots[1].on"), Some(5));
+    assert_eq!(columns.layout.offset("words"), Some(6));
+    assert!(
+        translation.columns("Grid", "grid").is_none(),
+        "it is a view"
+    );
+}
+
+#[test]
+fn what_hosts_are_told() {
+    let translation = particles();
+    let grid = &translation.views["Grid"];
+    let places: Vec<(&str, u32, FieldPlace)> = grid
+        .fields
+        .iter()
+        .map(|f| (f.name.as_str(), f.words, f.place))
+        .collect();
+    let header = |offset| FieldPlace::Header { offset };
+    assert_eq!(
+        places,
+        [
+            ("cells", 2, FieldPlace::Buffer),
+            ("size", 1, header(0)),
+            ("low", 3, header(1)),
+            ("count", 1, header(4)),
+        ]
+    );
+    assert_eq!(grid.header_words, 5);
+    let accesses = |function: &str| -> Vec<String> {
+        let accesses = translation.needed([function]).accesses;
+        let text = |a: &Access| format!("{} {} {}", a.field, a.words, a.count);
+        accesses.iter().map(text).collect()
+    };
+    assert_eq!(accesses("cell"), ["cells true false", "low true false"]);
+    assert_eq!(accesses("cells"), ["cells false true", "size true false"]);
+    let all = ["cells true true", "size true false", "low true false"];
+    assert_eq!(accesses("both"), all);
+    let parts = Value::Parts(vec![Value::U32(14), Value::U32(16)]);
+    assert_eq!(translation.constants["SIZES"], parts);
+    assert_eq!(translation.constants["LOW"].as_f32(), Some(-3.0));
 }

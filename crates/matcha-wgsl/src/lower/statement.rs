@@ -193,7 +193,9 @@ impl Lowering<'_> {
         self.must_be_value(&value)?;
         match operator {
             Some("<<" | ">>") => {}
-            Some(_) if place.ty.is_vector() && self.inference.known(&value.ty) == Ty::F32 => {}
+            Some(_)
+                if self.inference.known(&place.ty).is_vector()
+                    && self.inference.known(&value.ty) == Ty::F32 => {}
             _ => self.inference.unify(line, &place.ty, &value.ty)?,
         }
         Ok(StatementKind::Assign {
