@@ -336,7 +336,7 @@ fn transparency_emission_and_holdout_are_apart() {
     set.begin(&f);
     let context = ClosureContext::default();
     let mut put = |kind, weight: f32| {
-        prepare_closure(kind, &[weight; 3], &f, &context, &mut set);
+        prepare_closure(kind, &[weight; 3], &context, &mut set);
     };
     put(ClosureKind::Emission, 2.0);
     put(ClosureKind::Transparent, 0.25);

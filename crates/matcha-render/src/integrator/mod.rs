@@ -19,7 +19,7 @@ use crate::device::path_start::path_start;
 use crate::device::path_step::path_ray_mask;
 use crate::film::{PixelSums, Tile, filter::FilterTable};
 use crate::prepare::Prepared;
-use crate::scene::{Scene, Settings};
+use crate::scene::Scene;
 use crate::surface::PathInfo;
 use glam::Vec3;
 use matcha_cache::Table;
@@ -52,10 +52,6 @@ pub struct Frame<'a> {
 impl Frame<'_> {
     pub(crate) fn scene(&self) -> &Scene {
         self.prepared.scene()
-    }
-
-    pub(crate) fn settings(&self) -> &Settings {
-        &self.scene().settings
     }
 
     pub(crate) fn program(&self, material: u32) -> &Program {
