@@ -1,13 +1,12 @@
 //! Translates the workspace's device code into WGSL and has naga validate it together with
 //! the host layers, so that a mistake in either is an error of `cargo build` at its line.
 
-use matcha_wgsl::{
-    Module, Operations, Source, TranslateError, Translation, check, operations, translate,
-};
+use matcha_wgsl::{FieldPlace, Module, Source, Translation, check, operations, translate};
 use memory::placement::{Placement, PlacementLimits};
-use memory::section::declarations;
+use memory::section::{Declaration, column_declarations, constants, constants_text, declarations};
 use naga::valid::Capabilities;
 use std::error::Error;
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 // What the crate puts kernels together with at run time.
@@ -18,6 +17,9 @@ mod memory {
     pub mod placement;
     pub mod section;
 }
+#[path = "src/shader/items.rs"]
+#[allow(dead_code)]
+mod items;
 #[path = "src/shader/prelude.rs"]
 #[allow(dead_code)]
 mod prelude;
@@ -50,14 +52,56 @@ fn build() -> Result<(), Box<dyn Error>> {
         modules.extend(files(&crates, folder, "rs")?);
     }
     let device = translate(&modules)?;
+    let host_layers = files(&crates, "matcha-gpu/src/wgsl", "wgsl")?;
     let table = file(&crates, "matcha-shade/src/ops.rs")?;
     let families = files(&crates, "matcha-shade/src/ops", "rs")?;
     let operations = operations(&table, &families, &device)?;
-    let host_layers = files(&crates, "matcha-gpu/src/wgsl", "wgsl")?;
-    for atomics_64 in [false, true] {
-        validate(&device, &operations, &host_layers, atomics_64)?;
+    let mut code = device.source.clone();
+    code.append(&operations.source());
+    code.append(&Source::written("views", &view_sections(&device)));
+    for layer in &host_layers {
+        code.append(&columns(&device, layer)?);
     }
-    embed(&device, &operations, &host_layers)
+    for atomics_64 in [false, true] {
+        validate(&code, &host_layers, atomics_64)?;
+    }
+    embed(&code, &host_layers)
+}
+
+/// Declares the fields of all views as sections.
+fn view_sections(device: &Translation) -> String {
+    let mut text = String::new();
+    for view in device.views.values() {
+        for field in &view.fields {
+            let class = match field.place {
+                FieldPlace::Buffer => "read",
+                FieldPlace::Header { .. } => "plain",
+            };
+            let name = field.name.trim_start_matches("r#");
+            let _ = writeln!(text, "//@ {class} {}_{name} {}", view.name, field.words);
+        }
+    }
+    text
+}
+
+/// Sections and functions for the structs in columns that a host layer declares.
+fn columns(device: &Translation, layer: &Module) -> Result<Source, Box<dyn Error>> {
+    let mut all = Source::default();
+    for (line, name, of) in column_declarations(&layer.source) {
+        let Some(columns) = device.columns(&of, &name) else {
+            let path = &layer.path;
+            return Err(format!("{path}:{line}: there is no device struct `{of}`").into());
+        };
+        let words = columns.layout.words;
+        let access = format!(
+            "//@ write {name} {words}\n\
+             fn {name}_get(word: u32, i: u32) -> u32 {{ return word_{name}(word * count_{name}() + i); }}\n\
+             fn {name}_set(word: u32, i: u32, value: u32) {{ put_{name}(word * count_{name}() + i, value); }}\n"
+        );
+        all.append(&Source::written("columns", &access));
+        all.append(&columns.source);
+    }
+    Ok(all)
 }
 
 /// The files of a folder, named from the workspace's root, in the order of their names.
@@ -90,26 +134,33 @@ fn file(crates: &Path, path: &str) -> Result<Module, Box<dyn Error>> {
 }
 
 /// Has naga look at everything at once, with accessors of all sections that are declared.
-fn validate(
-    device: &Translation,
-    operations: &Operations,
-    host_layers: &[Module],
-    atomics_64: bool,
-) -> Result<(), Box<dyn Error>> {
-    let mut all = device.source.clone();
-    all.append(&operations.source());
+fn validate(code: &Source, host_layers: &[Module], atomics_64: bool) -> Result<(), Box<dyn Error>> {
+    let mut all = code.clone();
     all.append(&Source::written("prelude of kernels", &prelude::text()));
     let types = memory::accessors::shared_types(atomics_64);
     all.append(&Source::written("accessors", &types));
-    let mut sections = Vec::new();
+    let declared = declarations(code.text()).map_err(|e| e.to_string())?;
+    let one = |declaration| (declaration, 1);
+    let mut sections: Vec<_> = declared.into_iter().map(one).collect();
     for layer in host_layers {
         if !prelude::belongs(&layer.path, atomics_64) {
             continue;
         }
         all.append(&Source::written(&layer.path, &layer.source));
         let declared = declarations(&layer.source).map_err(|e| format!("{}: {e}", layer.path))?;
-        sections.extend(declared.into_iter().map(|declaration| (declaration, 1)));
+        sections.extend(declared.into_iter().map(one));
+        let constants = constants(&layer.source);
+        all.append(&Source::written(&layer.path, &constants_text(&constants)));
     }
+    // A host layer may define what would be an accessor: where no buffer stands behind it.
+    let defined: Vec<String> = host_layers
+        .iter()
+        .flat_map(|layer| items::items(&layer.source))
+        .map(|item| item.name)
+        .collect();
+    sections.retain(|(section, _): &(Declaration, u64)| {
+        !defined.contains(&format!("word_{}", section.name))
+    });
     let unlimited = PlacementLimits {
         binding_bytes: u64::from(u32::MAX),
         storage_buffers: u32::MAX,
@@ -123,19 +174,13 @@ fn validate(
     } else {
         Capabilities::empty()
     };
-    check(&all, capabilities).map_err(|error: TranslateError| error)?;
+    check(&all, capabilities)?;
     Ok(())
 }
 
 /// Writes what the crate includes.
-fn embed(
-    device: &Translation,
-    operations: &Operations,
-    host_layers: &[Module],
-) -> Result<(), Box<dyn Error>> {
+fn embed(code: &Source, host_layers: &[Module]) -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(std::env::var("OUT_DIR")?);
-    let mut code = device.source.clone();
-    code.append(&operations.source());
     std::fs::write(out.join("device.wgsl"), code.text())?;
     let mut rust = String::from(
         "pub const DEVICE_CODE: &str = include_str!(concat!(env!(\"OUT_DIR\"), \"/device.wgsl\"));\n\

@@ -5,7 +5,7 @@ pub mod items;
 pub mod prelude;
 
 use crate::memory::Memory;
-use crate::memory::section::{Declaration, declarations};
+use crate::memory::section::{Declaration, constants, constants_text, declarations};
 use items::{Item, items, workgroup_size};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -38,6 +38,9 @@ pub enum LinkError {
     /// No shader declares that section.
     #[error("no shader declares the section \"{0}\"")]
     NoSection(String),
+    /// No shader declares that constant.
+    #[error("no shader declares the constant \"{0}\"")]
+    NoConstant(String),
     /// A section is in none of the memories that a kernel is bound to.
     #[error(
         "the kernel \"{kernel}\" reaches into section \"{section}\", which is in none of its memories"
@@ -99,8 +102,10 @@ impl Library {
             file: file.to_owned(),
             name,
         };
+        let constants = constants_text(&constants(source));
         for item in items(source)
             .into_iter()
+            .chain(items(&constants))
             .filter(|item| !item.name.is_empty())
         {
             if let Some(first) = self.items.insert(item.name.clone(), item) {
@@ -120,6 +125,17 @@ impl Library {
                 return Err(twice(first.name));
             }
         }
+        Ok(())
+    }
+
+    /// Gives a constant that a file leaves to the host (`//@ constant NAME VALUE`) its value.
+    ///
+    /// # Errors
+    /// If no file declares it.
+    pub fn set_constant(&mut self, name: &str, value: u32) -> Result<(), LinkError> {
+        let found = self.items.get_mut(name);
+        let item = found.ok_or_else(|| LinkError::NoConstant(name.to_owned()))?;
+        item.text = constants_text(&[(name.to_owned(), value)]);
         Ok(())
     }
 

@@ -101,19 +101,60 @@ impl fmt::Display for BadDeclaration {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(
             f,
-            "line {}: `{}` declares no section: it is //@ read|read4|write|write4|atomic|atomic64|plain NAME [STRIDE]",
+            "line {}: `{}` declares no section: it is //@ read|read4|write|write4|atomic|atomic64|plain NAME [STRIDE], //@ columns NAME STRUCT or //@ constant NAME VALUE",
             self.line, self.text
         )
     }
 }
 
-/// The sections that a WGSL file declares, in lines that begin with `//@`.
+/// The device structs that a WGSL file keeps in columns, in lines `//@ columns NAME STRUCT`:
+/// line, name and struct. The build script makes a `write` section of each, with the struct's
+/// words as its stride, and `load_NAME(i)`, `store_NAME(i, value)`, `load_NAME_field(i)`, ….
+pub fn column_declarations(source: &str) -> Vec<(usize, String, String)> {
+    let mut all = Vec::new();
+    for (i, text) in source.lines().enumerate() {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        if let ["//@", "columns", name, of] = words.as_slice() {
+            all.push((i + 1, (*name).to_owned(), (*of).to_owned()));
+        }
+    }
+    all
+}
+
+/// The whole-numbered constants that a WGSL file leaves to the host, in lines
+/// `//@ constant NAME VALUE`; the value holds where the host gives none.
+pub fn constants(source: &str) -> Vec<(String, u32)> {
+    let mut all = Vec::new();
+    for text in source.lines() {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        if let ["//@", "constant", name, value] = words.as_slice()
+            && let Ok(value) = value.parse()
+        {
+            all.push(((*name).to_owned(), value));
+        }
+    }
+    all
+}
+
+/// Constants in WGSL.
+pub fn constants_text(constants: &[(String, u32)]) -> String {
+    let one = |(name, value): &(String, u32)| format!("const {name}: u32 = {value}u;\n");
+    constants.iter().map(one).collect()
+}
+
+/// The sections that a WGSL file declares, in lines that begin with `//@`, but for columns.
 pub fn declarations(source: &str) -> Result<Vec<Declaration>, BadDeclaration> {
     let mut all = Vec::new();
     for (i, text) in source.lines().enumerate() {
         let Some(words) = text.trim_start().strip_prefix("//@") else {
             continue;
         };
+        if matches!(
+            words.split_whitespace().next(),
+            Some("columns" | "constant")
+        ) {
+            continue;
+        }
         let declaration = declaration(words).ok_or_else(|| BadDeclaration {
             line: i + 1,
             text: text.trim().to_owned(),

@@ -1,7 +1,8 @@
 // The walk of a ray through the hierarchy that `trace/` lays out: nodes of eight boxes, and
 // placed meshes among them. The processor's walk (matcha-render, `accel/traverse.rs`) is its twin.
 //
-// Needs the constant TRACE_STACK: entries of the stack, at least the hierarchy's levels.
+// Entries of the stack, at least the hierarchy's levels.
+//@ constant TRACE_STACK 64
 
 //@ read4 bvh_nodes 5
 //@ read4 bvh_triangles 3
