@@ -19,6 +19,7 @@ use crate::camera::pixel_ray;
 use crate::device::sobol::sobol_pixel_seed;
 use crate::film::{PixelSums, Tile, filter::FilterTable};
 use crate::light::RayKind;
+use crate::node_cache::CacheLayout;
 use crate::prepare::Prepared;
 use crate::scene::{Scene, Settings};
 use crate::surface::PathInfo;
@@ -32,6 +33,8 @@ use path::{Path, flags, power_heuristic};
 pub struct FrameCache<'a> {
     /// The table.
     pub table: &'a Table,
+    /// Where each material's values are in it.
+    pub layouts: &'a [CacheLayout],
     /// Added to the level of the virtual texture.
     pub level_offset: f32,
 }
