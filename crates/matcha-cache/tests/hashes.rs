@@ -3,7 +3,7 @@
 
 use matcha_cache::NodeSeed;
 use matcha_cache::device::key_hash::{cell_of, hash_texel};
-use matcha_cache::node_seed;
+use matcha_cache::{NODES_A_CELL, node_seed};
 
 fn bits(seed: NodeSeed, level: i32, i: i32, j: i32) -> u64 {
     let hash = hash_texel(seed, level, i, j);
@@ -38,7 +38,13 @@ fn flip_shares(flip: usize) -> [f64; 64] {
 #[test]
 fn every_input_bit_flips_every_output_bit_half_of_the_time() {
     for flip in 0..160 {
+        // The last bits of a node's number choose among those that share a cell.
+        let shares_cell = (128..128 + NODES_A_CELL.ilog2() as usize).contains(&flip);
         for (o, share) in flip_shares(flip).into_iter().enumerate() {
+            if shares_cell && o >= 32 {
+                assert_eq!(share, 0.0, "output bit {o}");
+                continue;
+            }
             assert!(
                 (0.45..0.55).contains(&share),
                 "input bit {flip}, output bit {o}: {share}"
@@ -121,4 +127,21 @@ fn neighbouring_keys_differ() {
     seen.sort_unstable();
     seen.dedup();
     assert_eq!(seen.len(), total);
+}
+
+/// Nodes that share a cell have different fingerprints there.
+#[test]
+fn nodes_in_one_cell_are_told_apart() {
+    for (level, i, j) in [(0, 0, 0), (7, -3, 12), (30, 1 << 29, -5)] {
+        let hashes = (0..NODES_A_CELL).flat_map(|node| {
+            (0..3).map(move |part| hash_texel(node_seed(2, node, part), level, i, j))
+        });
+        let (mut cells, mut fingerprints): (Vec<u32>, Vec<u32>) =
+            hashes.map(|hash| (hash.cell, hash.fingerprint)).unzip();
+        cells.dedup();
+        assert_eq!(cells.len(), 1);
+        fingerprints.sort_unstable();
+        fingerprints.dedup();
+        assert_eq!(fingerprints.len(), 3 * NODES_A_CELL as usize);
+    }
 }

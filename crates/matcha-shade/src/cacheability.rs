@@ -297,6 +297,7 @@ mod tests {
     fn costs(lookup_ns: f32) -> CostModel {
         CostModel {
             lookup_ns,
+            value_ns: 0.0,
             ..CostModel::of(Isa::Avx512)
         }
     }
@@ -396,6 +397,30 @@ mod tests {
         let cost = OpCode::series_of_halves.info().cost;
         assert_eq!(choose(&network, &costs(cost * 0.9)).len(), 1);
         assert_eq!(choose(&network, &costs(cost * 1.1)).len(), 0);
+    }
+
+    #[test]
+    fn nodes_of_a_set_share_a_look_up() {
+        let network = network_of(|g| {
+            let a = costly(g, 0);
+            let b = g.apply(OpCode::math_sine, &[a]);
+            let c = costly(g, 1);
+            tinted(g, &[a, b, c])
+        });
+        let (series, sine) = (
+            OpCode::series_of_halves.info().cost,
+            OpCode::math_sine.info().cost,
+        );
+        // One series would not pay for a look-up, but with the sine that uses it, it does.
+        let model = CostModel {
+            value_ns: 0.1 * sine,
+            ..costs(series + 0.5 * sine)
+        };
+        let sets = |model| -> Vec<u16> { choose(&network, &model).iter().map(|c| c.1).collect() };
+        assert_eq!(sets(model), [0, 0]);
+        // The sine is not worth an entry of its own, and without it the set is not either.
+        let value_ns = 1.1 * sine;
+        assert_eq!(sets(CostModel { value_ns, ..model }), []);
     }
 
     #[test]
