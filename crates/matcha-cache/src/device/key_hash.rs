@@ -143,7 +143,8 @@ pub fn hash_texel(seed: NodeSeed, level: i32, i: i32, j: i32) -> KeyHash {
 /// ones' keys go to any cell. It is as uniform as a modulo, and needs no division.
 #[inline(always)]
 pub fn cell_of(hash: u32, cells: u32) -> u32 {
-    let near = (multiply_high(hash, cells) & 0xFFFFFFC0) | (hash & 63);
+    let squares = ((cells - 1) >> 6) + 1;
+    let near = (multiply_high(hash, squares) << 6) | (hash & 63);
     let any = multiply_high(scatter(hash), cells);
     select(any, near, near < cells)
 }
