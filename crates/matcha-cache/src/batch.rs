@@ -1,51 +1,85 @@
 //! Look-ups and insertions of a whole batch. One look-up in a table of hundreds of
-//! megabytes waits for memory most of its time; a batch waits once: all keys are
-//! hashed in lanes, all their cells prefetched, and only then are entries compared,
-//! without branches. While a block is compared, the next one's cells are on their way.
+//! megabytes waits for memory most of its time; a batch waits once, and not at all if
+//! there is other work between the two steps that it takes:
+//!
+//! 1. [`Table::prepare`] hashes all texels in lanes and asks for their cells.
+//! 2. [`Table::look_up_prepared`] compares fingerprints, of every node that has its values
+//!    in these cells. [`Table::insert_prepared`] puts what was not found.
 
-use crate::device::key_hash::{KeyHash, NodeSeed, hash_texel};
-use crate::sync::{AtomicU64, Ordering};
-use crate::table::{fingerprint_of, value_of};
-use crate::{CacheCounts, Table};
+use crate::device::key_hash::{NodeSeed, fingerprint_at, hash_shared_texel};
+use crate::sync::Ordering;
+use crate::table::{Cell, EMPTY, fingerprint_of, value_of};
+use crate::{CacheCounts, Insertion, Table};
 
-/// Keys that are in flight together.
-const BLOCK: usize = 64;
+/// Most words that one call of [`Table::look_up_prepared`] looks up a texel.
+pub const MOST_SEEDS: usize = 16;
 
-/// Texels of a block, then their hashes.
-struct Block {
-    level: [i32; BLOCK],
-    i: [i32; BLOCK],
-    j: [i32; BLOCK],
-    cell: [u32; BLOCK],
-    fingerprint: [u32; BLOCK],
+/// The hashes of a batch's texels for nodes that share cells.
+#[derive(Clone, Debug, Default)]
+pub struct Keys {
+    /// Hash of the cell.
+    cell: Vec<u32>,
+    /// What fingerprints are made of.
+    rest: Vec<u32>,
 }
 
-impl Block {
-    fn new() -> Self {
-        Self {
-            level: [0; BLOCK],
-            i: [0; BLOCK],
-            j: [0; BLOCK],
-            cell: [0; BLOCK],
-            fingerprint: [0; BLOCK],
-        }
+impl Keys {
+    /// Number of texels.
+    pub fn len(&self) -> usize {
+        self.cell.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.cell.is_empty()
     }
 }
 
-/// The hash over a block, compiled for what this CPU has.
-pub(crate) struct HashBlock(fn(NodeSeed, &mut Block));
+/// What a look-up in batches gives.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    words: Vec<u32>,
+    masks: Vec<u16>,
+    seeds: usize,
+}
+
+impl Found {
+    /// The words of one seed; 0 where not found.
+    pub fn words(&self, seed: usize) -> &[u32] {
+        let n = self.masks.len();
+        assert!(seed < self.seeds, "seed {seed} of {}", self.seeds);
+        &self.words[seed * n..][..n]
+    }
+
+    /// For each texel bit `s` says whether the word of seed `s` was found.
+    pub fn masks(&self) -> &[u16] {
+        &self.masks
+    }
+
+    fn reset(&mut self, seeds: usize, n: usize) {
+        self.seeds = seeds;
+        self.words.resize(self.words.len().max(seeds * n), 0);
+        self.masks.clear();
+        self.masks.resize(n, 0);
+    }
+}
+
+/// The hash over rows of texels, compiled for what this CPU has.
+pub(crate) struct HashRows(fn(NodeSeed, [&[i32]; 3], &mut Keys));
 
 #[inline(always)]
-fn hash_lanes(node: NodeSeed, block: &mut Block) {
-    for k in 0..BLOCK {
-        let hash = hash_texel(node, block.level[k], block.i[k], block.j[k]);
-        block.cell[k] = hash.cell;
-        block.fingerprint[k] = hash.fingerprint;
+fn hash_lanes(node: NodeSeed, [level, i, j]: [&[i32]; 3], keys: &mut Keys) {
+    let n = level.len();
+    let (i, j, rest) = (&i[..n], &j[..n], &mut keys.rest[..n]);
+    for (k, cell) in keys.cell[..n].iter_mut().enumerate() {
+        let hash = hash_shared_texel(node, level[k], i[k], j[k]);
+        *cell = hash.cell;
+        rest[k] = hash.rest;
     }
 }
 
-fn hash_portable(node: NodeSeed, block: &mut Block) {
-    hash_lanes(node, block);
+fn hash_portable(node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
+    hash_lanes(node, texels, keys);
 }
 
 #[cfg(all(target_arch = "x86_64", not(loom)))]
@@ -53,26 +87,26 @@ mod x86 {
     use super::*;
 
     #[target_feature(enable = "avx2")]
-    fn hash_avx2_lanes(node: NodeSeed, block: &mut Block) {
-        hash_lanes(node, block);
+    fn hash_avx2_lanes(node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
+        hash_lanes(node, texels, keys);
     }
 
     #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-    fn hash_avx512_lanes(node: NodeSeed, block: &mut Block) {
-        hash_lanes(node, block);
+    fn hash_avx512_lanes(node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
+        hash_lanes(node, texels, keys);
     }
 
-    pub(super) fn hash_avx2(node: NodeSeed, block: &mut Block) {
+    pub(super) fn hash_avx2(node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
         // SAFETY: chosen only where `best` found AVX2.
-        unsafe { hash_avx2_lanes(node, block) }
+        unsafe { hash_avx2_lanes(node, texels, keys) }
     }
 
-    pub(super) fn hash_avx512(node: NodeSeed, block: &mut Block) {
+    pub(super) fn hash_avx512(node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
         // SAFETY: chosen only where `best` found these parts of AVX-512.
-        unsafe { hash_avx512_lanes(node, block) }
+        unsafe { hash_avx512_lanes(node, texels, keys) }
     }
 
-    pub(super) fn best() -> fn(NodeSeed, &mut Block) {
+    pub(super) fn best() -> fn(NodeSeed, [&[i32]; 3], &mut Keys) {
         if is_x86_feature_detected!("avx512dq") && is_x86_feature_detected!("avx512vl") {
             hash_avx512
         } else if is_x86_feature_detected!("avx2") {
@@ -83,7 +117,7 @@ mod x86 {
     }
 }
 
-impl HashBlock {
+impl HashRows {
     pub(crate) fn for_this_cpu() -> Self {
         #[cfg(all(target_arch = "x86_64", not(loom)))]
         return Self(x86::best());
@@ -92,142 +126,97 @@ impl HashBlock {
     }
 }
 
-/// Asks for the cache lines of a cell.
+/// Asks for the first line of a cell. Entries are taken in order, so what is beyond it is
+/// needed only where that line is full.
 #[inline(always)]
-fn prefetch(cell: &[AtomicU64]) {
+fn prefetch(cell: Cell) {
     #[cfg(all(target_arch = "x86_64", not(loom), not(miri)))]
-    for entry in cell.iter().step_by(8).chain(cell.last()) {
-        // SAFETY: a prefetch is a hint and reads nothing; SSE is part of x86-64.
-        unsafe {
-            use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-            _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(entry).cast());
-        }
+    // SAFETY: a prefetch is a hint and reads nothing; SSE is part of x86-64.
+    unsafe {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        _mm_prefetch::<_MM_HINT_T0>(cell.head.as_ptr().cast());
     }
     #[cfg(not(all(target_arch = "x86_64", not(loom), not(miri))))]
     let _ = cell;
 }
 
-/// Value and presence of a fingerprint in a cell: every entry is looked at, none
-/// branches. A fingerprint is in a cell at most once, so or-ing picks the one.
-#[inline(always)]
-fn compare(cell: &[AtomicU64], fingerprint: u32) -> (u32, bool) {
-    let mut value = 0;
-    let mut mask = 0;
-    for entry in cell {
-        let word = entry.load(Ordering::Relaxed);
-        let same = 0u32.wrapping_sub(u32::from(fingerprint_of(word) == fingerprint));
-        value |= value_of(word) & same;
-        mask |= same;
-    }
-    (value, mask != 0)
-}
-
 impl Table {
-    /// Looks up `n = values.len()` texels of a node; `texel_at(k)` is the k-th one's
-    /// level and indices. `values[k]` is the stored word where `found[k]`, else 0.
+    /// Hashes texels, given by the rows of their levels and indices, for the nodes that
+    /// share cells with `node`, and asks memory for the cells.
+    pub fn prepare(&self, node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
+        let n = texels[0].len();
+        keys.cell.resize(n, 0);
+        keys.rest.resize(n, 0);
+        (self.hash_rows.0)(node, texels, keys);
+        for &cell in &keys.cell {
+            prefetch(self.cell(cell));
+        }
+    }
+
+    /// Looks words up, one for each seed, at all texels that `keys` were made of. All seeds
+    /// must share cells with the one that the keys were prepared for.
     ///
     /// # Panics
-    /// If `found` is shorter than `values`.
-    pub fn look_up_batch(
+    /// If there are more than [`MOST_SEEDS`] seeds.
+    pub fn look_up_prepared(&self, keys: &Keys, seeds: &[NodeSeed], out: &mut Found) {
+        assert!(seeds.len() <= MOST_SEEDS, "{} seeds", seeds.len());
+        let n = keys.len();
+        out.reset(seeds.len(), n);
+        for (k, mask) in out.masks.iter_mut().enumerate() {
+            let cell = self.cell(keys.cell[k]);
+            for (s, &seed) in seeds.iter().enumerate() {
+                let fingerprint = fingerprint_at(keys.rest[k], seed);
+                let found = cell.find_near(s, fingerprint);
+                *mask |= u16::from(found.is_some()) << s;
+                out.words[s * n + k] = found.unwrap_or(0);
+            }
+        }
+    }
+
+    /// Stores a word of a node at texel `at` of those that `keys` were made of.
+    pub fn insert_prepared(
         &self,
+        keys: &Keys,
+        at: usize,
         node: NodeSeed,
-        texel_at: impl Fn(usize) -> [i32; 3],
-        values: &mut [u32],
-        found: &mut [bool],
+        word: u32,
         counts: &mut CacheCounts,
-    ) {
-        let found = &mut found[..values.len()];
-        let mut hits = 0;
-        self.in_blocks(node, values.len(), texel_at, |block, first, n| {
-            let values = &mut values[first..first + n];
-            hits += self.compare_block(block, values, &mut found[first..first + n]);
-        });
-        counts.lookups += values.len() as u64;
-        counts.hits += hits;
+    ) -> Insertion {
+        let fingerprint = fingerprint_at(keys.rest[at], node);
+        let outcome = self.cell(keys.cell[at]).put(fingerprint, word);
+        counts.count(outcome);
+        outcome
     }
+}
 
-    /// Stores `n` words of a node; `texel_at(k)` and `word_at(k)` give the k-th one's.
-    pub fn insert_batch(
-        &self,
-        node: NodeSeed,
-        n: usize,
-        texel_at: impl Fn(usize) -> [i32; 3],
-        word_at: impl Fn(usize) -> u32,
-        counts: &mut CacheCounts,
-    ) {
-        self.in_blocks(node, n, texel_at, |block, first, n| {
-            for k in 0..n {
-                let hash = KeyHash {
-                    cell: block.cell[k],
-                    fingerprint: block.fingerprint[k],
-                };
-                counts.count(self.put(hash, word_at(first + k)));
-            }
-        });
-    }
-
-    /// Runs `work(block, first, n)` over blocks whose hashes are known and whose cells
-    /// were prefetched one block ahead.
+impl Cell<'_> {
+    /// The word of a fingerprint, which is `place` entries behind the cell's first one if
+    /// nothing but the nodes of one texel is in it, the most frequent case by far.
     #[inline(always)]
-    fn in_blocks(
-        &self,
-        node: NodeSeed,
-        n: usize,
-        texel_at: impl Fn(usize) -> [i32; 3],
-        mut work: impl FnMut(&Block, usize, usize),
-    ) {
-        let mut blocks = [Block::new(), Block::new()];
-        let prepare = |block: &mut Block, first: usize| {
-            let length = BLOCK.min(n - first);
-            for k in 0..length {
-                [block.level[k], block.i[k], block.j[k]] = texel_at(first + k);
+    fn find_near(self, place: usize, fingerprint: u32) -> Option<u32> {
+        if let Some(entry) = self.head.get(place) {
+            let word = entry.load(Ordering::Relaxed);
+            if fingerprint_of(word) == fingerprint {
+                return Some(value_of(word));
             }
-            (self.hash_block.0)(node, block);
-            for k in 0..length {
-                prefetch(self.cell(block.cell[k]));
-            }
-        };
-        if n > 0 {
-            prepare(&mut blocks[0], 0);
         }
-        for first in (0..n).step_by(BLOCK) {
-            let [current, next] = &mut blocks;
-            if first + BLOCK < n {
-                prepare(next, first + BLOCK);
-            }
-            work(current, first, BLOCK.min(n - first));
-            blocks.swap(0, 1);
-        }
+        self.find(fingerprint)
     }
 
-    /// Compares a block; returns the number of keys found.
-    #[inline(always)]
-    fn compare_block(&self, block: &Block, values: &mut [u32], found: &mut [bool]) -> u64 {
-        match self.size().entries {
-            4 => self.compare_cells::<4>(block, values, found),
-            8 => self.compare_cells::<8>(block, values, found),
-            10 => self.compare_cells::<10>(block, values, found),
-            16 => self.compare_cells::<16>(block, values, found),
-            _ => self.compare_cells::<0>(block, values, found),
+    /// The word of a fingerprint. Entries are taken in order: behind a free one there is
+    /// nothing.
+    pub(crate) fn find(self, fingerprint: u32) -> Option<u32> {
+        for entries in [self.head, self.tail] {
+            for entry in entries {
+                let word = entry.load(Ordering::Relaxed);
+                if fingerprint_of(word) == fingerprint {
+                    return Some(value_of(word));
+                }
+                if word == EMPTY {
+                    return None;
+                }
+            }
         }
-    }
-
-    /// With the number of entries known to the compiler, 0 where it is not.
-    fn compare_cells<const ENTRIES: usize>(
-        &self,
-        block: &Block,
-        values: &mut [u32],
-        found: &mut [bool],
-    ) -> u64 {
-        let mut hits = 0;
-        for (k, (value, found)) in values.iter_mut().zip(found).enumerate() {
-            let cell = self.cell(block.cell[k]);
-            (*value, *found) = match cell.first_chunk::<ENTRIES>() {
-                Some(cell) if ENTRIES > 0 => compare(cell, block.fingerprint[k]),
-                _ => compare(cell, block.fingerprint[k]),
-            };
-            hits += u64::from(*found);
-        }
-        hits
+        None
     }
 }

@@ -23,8 +23,9 @@ mod sync;
 mod table;
 mod value;
 
+pub use batch::{Found, Keys, MOST_SEEDS};
 pub use counts::CacheCounts;
-pub use device::key_hash::NodeSeed;
+pub use device::key_hash::{NODES_A_CELL, NodeSeed};
 pub use error::CacheError;
 pub use size::{TableSize, available_memory, fitting_size};
 pub use table::{Insertion, Table, node_seed};

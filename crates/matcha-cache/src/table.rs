@@ -1,6 +1,6 @@
 //! The table: algorithm 1 of Fujieda and Harada 2022, and its reading side.
 
-use crate::batch::HashBlock;
+use crate::batch::HashRows;
 use crate::device::key_hash::{KeyHash, NodeSeed, cell_of, hash_texel, seed_of_node};
 use crate::storage::Storage;
 use crate::sync::{AtomicU64, Ordering};
@@ -20,7 +20,8 @@ pub enum Insertion {
     Lost,
 }
 
-/// Seed of a cacheable node's keys. `part` is 0, and counts up for values that take
+/// Seed of a cacheable node's keys. Nodes from a multiple of [`NODES_A_CELL`](crate::NODES_A_CELL) on share
+/// their cells. `part` is 0, and counts up for values that take
 /// several words.
 pub fn node_seed(material: u32, node: u32, part: u32) -> NodeSeed {
     seed_of_node(material, node, part)
@@ -30,7 +31,7 @@ pub fn node_seed(material: u32, node: u32, part: u32) -> NodeSeed {
 pub struct Table {
     storage: Storage,
     size: TableSize,
-    pub(crate) hash_block: HashBlock,
+    pub(crate) hash_rows: HashRows,
 }
 
 impl core::fmt::Debug for Table {
@@ -61,7 +62,7 @@ impl Table {
         Ok(Self {
             storage: Storage::new(length)?,
             size,
-            hash_block: HashBlock::for_this_cpu(),
+            hash_rows: HashRows::for_this_cpu(),
         })
     }
 
@@ -134,33 +135,49 @@ impl Table {
 
     /// The entries of the cell that a hash names.
     #[inline(always)]
-    pub(crate) fn cell(&self, hash: u32) -> &[AtomicU64] {
-        let entries = self.size.entries as usize;
-        let first = cell_of(hash, self.size.cells as u32) as usize * entries;
-        &self.storage.words()[first..first + entries]
+    pub(crate) fn cell(&self, hash: u32) -> Cell<'_> {
+        let TableSize { cells, entries } = self.size;
+        let number = cell_of(hash, cells as u32) as usize;
+        let head = HEAD.min(entries as usize);
+        let tail = entries as usize - head;
+        let (heads, tails) = self.storage.words().split_at(cells as usize * head);
+        Cell {
+            head: &heads[number * head..][..head],
+            tail: &tails[number * tail..][..tail],
+        }
     }
 
     fn find(&self, hash: KeyHash) -> Option<u32> {
-        for entry in self.cell(hash.cell) {
-            let word = entry.load(Ordering::Relaxed);
-            if fingerprint_of(word) == hash.fingerprint {
-                return Some(value_of(word));
-            }
-            if word == EMPTY {
-                return None;
-            }
-        }
-        None
+        self.cell(hash.cell).find(hash.fingerprint)
     }
 
-    pub(crate) fn put(&self, hash: KeyHash, value: u32) -> Insertion {
-        for entry in self.cell(hash.cell) {
+    fn put(&self, hash: KeyHash, value: u32) -> Insertion {
+        self.cell(hash.cell).put(hash.fingerprint, value)
+    }
+}
+
+/// Entries of a cell that lie together in one line of 64 bytes. Those of all cells come
+/// first, then the rest of each cell: a cell of ten entries would straddle two lines, but
+/// the last two are looked at only where eight are taken.
+const HEAD: usize = 8;
+
+/// A cell's entries, in the order in which they are taken.
+#[derive(Clone, Copy)]
+pub(crate) struct Cell<'a> {
+    pub(crate) head: &'a [AtomicU64],
+    pub(crate) tail: &'a [AtomicU64],
+}
+
+impl Cell<'_> {
+    /// Algorithm 1.
+    pub(crate) fn put(self, fingerprint: u32, value: u32) -> Insertion {
+        for entry in self.head.iter().chain(self.tail) {
             let word = entry.load(Ordering::Relaxed);
-            if fingerprint_of(word) == hash.fingerprint {
+            if fingerprint_of(word) == fingerprint {
                 return Insertion::Present;
             }
             if word == EMPTY {
-                let new = word_of(hash.fingerprint, value);
+                let new = word_of(fingerprint, value);
                 let swap = entry.compare_exchange(EMPTY, new, Ordering::Relaxed, Ordering::Relaxed);
                 return if swap.is_ok() {
                     Insertion::Stored

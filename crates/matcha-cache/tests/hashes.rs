@@ -2,8 +2,8 @@
 #![cfg(not(loom))]
 
 use matcha_cache::NodeSeed;
-use matcha_cache::device::key_hash::{cell_of, hash_texel};
-use matcha_cache::node_seed;
+use matcha_cache::device::key_hash::{KeyHash, cell_of, hash_texel};
+use matcha_cache::{NODES_A_CELL, node_seed};
 
 fn bits(seed: NodeSeed, level: i32, i: i32, j: i32) -> u64 {
     let hash = hash_texel(seed, level, i, j);
@@ -38,7 +38,20 @@ fn flip_shares(flip: usize) -> [f64; 64] {
 #[test]
 fn every_input_bit_flips_every_output_bit_half_of_the_time() {
     for flip in 0..160 {
+        // The last bits of a node's number choose among those that share a cell.
+        let shares_cell = (128..128 + NODES_A_CELL.ilog2() as usize).contains(&flip);
+        // Those of i and j are the place in a square of texels.
+        let place = match flip {
+            32..35 => Some(32 + flip - 32),
+            64..67 => Some(35 + flip - 64),
+            _ => None,
+        };
         for (o, share) in flip_shares(flip).into_iter().enumerate() {
+            if o >= 32 && (shares_cell || place.is_some()) || (32..38).contains(&o) {
+                let expected = f64::from(u8::from(place == Some(o)));
+                assert_eq!(share, expected, "input bit {flip}, output bit {o}");
+                continue;
+            }
             assert!(
                 (0.45..0.55).contains(&share),
                 "input bit {flip}, output bit {o}: {share}"
@@ -59,44 +72,74 @@ fn deviation_from_even(counts: &[u32]) -> f64 {
     (chi2 - degrees) / (2.0 * degrees).sqrt()
 }
 
-fn spread(slots: usize, slot_of: impl Fn(u32, u32) -> usize) -> f64 {
+/// Every `step`-th texel of a plane, for nodes that do not share cells.
+fn plane(step: usize) -> impl Iterator<Item = KeyHash> {
+    let side = move || (-512..512).step_by(step);
+    (0..4).flat_map(move |node| {
+        let seed = node_seed(node / 2, NODES_A_CELL * node, 0);
+        side().flat_map(move |i| side().map(move |j| hash_texel(seed, 7, i, j)))
+    })
+}
+
+fn spread(slots: usize, step: usize, slot_of: impl Fn(KeyHash) -> usize) -> f64 {
     let mut counts = vec![0u32; slots];
-    for node in 0..4 {
-        let seed = node_seed(node / 2, node, 0);
-        for i in -128..128 {
-            for j in -128..128 {
-                let hash = hash_texel(seed, 7, i, j);
-                counts[slot_of(hash.cell, hash.fingerprint)] += 1;
-            }
-        }
-    }
+    plane(step).for_each(|hash| counts[slot_of(hash)] += 1);
     deviation_from_even(&counts)
 }
 
 #[test]
 fn squares_of_texels_spread_evenly() {
-    for cells in [1000u32, 4096, 9973] {
-        let deviation = spread(cells as usize, |cell, _| cell_of(cell, cells) as usize);
+    for cells in [1024u32, 4096, 9984] {
+        let square = |hash: KeyHash| cell_of(hash.cell, cells) as usize / 64;
+        let deviation = spread(cells as usize / 64, 8, square);
         assert!(deviation.abs() < 5.0, "{cells} cells: {deviation}");
     }
+}
+
+#[test]
+fn fingerprints_spread_evenly() {
     for shift in [0, 12, 20] {
-        let deviation = spread(4096, |_, fingerprint| {
-            (fingerprint >> shift & 4095) as usize
-        });
-        assert!(
-            deviation.abs() < 5.0,
-            "fingerprint bits from {shift}: {deviation}"
-        );
+        let bits = |hash: KeyHash| (hash.fingerprint >> shift & 4095) as usize;
+        let deviation = spread(4096, 3, bits);
+        assert!(deviation.abs() < 5.0, "bits from {shift}: {deviation}");
+    }
+}
+
+/// Whatever the number of cells: a multiple of 64 or not, or fewer.
+#[test]
+fn every_cell_gets_its_share() {
+    for cells in [1000u32, 37, 64, 65] {
+        let mut counts = vec![0u32; cells as usize];
+        plane(1).for_each(|hash| counts[cell_of(hash.cell, cells) as usize] += 1);
+        let mean = counts.iter().sum::<u32>() / cells;
+        let range = mean * 9 / 10..mean * 11 / 10;
+        let bad = counts.iter().find(|count| !range.contains(count));
+        assert_eq!(bad, None, "{cells} cells: {mean} in the mean");
+    }
+}
+
+/// A square's 64 texels are the 64 cells of a page, each in its place.
+#[test]
+fn neighbours_are_neighbours() {
+    let seed = node_seed(1, 2, 0);
+    for (i, j) in [(0, 0), (-8, 16), (1 << 20, -(1 << 20))] {
+        let first = cell_of(hash_texel(seed, 5, i, j).cell, 10_000_000);
+        assert_eq!(first % 64, 0);
+        for place in 0..64 {
+            let hash = hash_texel(seed, 5, i + place % 8, j + place / 8);
+            assert_eq!(cell_of(hash.cell, 10_000_000), first + place as u32);
+        }
     }
 }
 
 #[test]
 fn the_fingerprint_says_nothing_of_the_cell() {
     for shift in [0, 13, 26] {
-        let joint = |cell: u32, fingerprint: u32| {
-            (cell_of(cell, 64) << 6 | (fingerprint >> shift & 63)) as usize
+        let joint = |hash: KeyHash| {
+            let square = cell_of(hash.cell, 4096) & !63;
+            (square | (hash.fingerprint >> shift & 63)) as usize
         };
-        let deviation = spread(4096, joint);
+        let deviation = spread(4096, 8, joint);
         assert!(
             deviation.abs() < 5.0,
             "fingerprint bits from {shift}: {deviation}"
@@ -121,4 +164,21 @@ fn neighbouring_keys_differ() {
     seen.sort_unstable();
     seen.dedup();
     assert_eq!(seen.len(), total);
+}
+
+/// Nodes that share a cell have different fingerprints there.
+#[test]
+fn nodes_in_one_cell_are_told_apart() {
+    for (level, i, j) in [(0, 0, 0), (7, -3, 12), (30, 1 << 29, -5)] {
+        let hashes = (0..NODES_A_CELL).flat_map(|node| {
+            (0..3).map(move |part| hash_texel(node_seed(2, node, part), level, i, j))
+        });
+        let (mut cells, mut fingerprints): (Vec<u32>, Vec<u32>) =
+            hashes.map(|hash| (hash.cell, hash.fingerprint)).unzip();
+        cells.dedup();
+        assert_eq!(cells.len(), 1);
+        fingerprints.sort_unstable();
+        fingerprints.dedup();
+        assert_eq!(fingerprints.len(), 3 * NODES_A_CELL as usize);
+    }
 }

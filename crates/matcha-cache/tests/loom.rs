@@ -4,7 +4,7 @@
 
 use loom::sync::Arc;
 use loom::thread;
-use matcha_cache::{CacheCounts, Insertion, NodeSeed, Table, TableSize, node_seed};
+use matcha_cache::{CacheCounts, Found, Insertion, Keys, NodeSeed, Table, TableSize, node_seed};
 
 fn table(entries: u32) -> Arc<Table> {
     Arc::new(Table::new(TableSize { cells: 1, entries }).unwrap())
@@ -23,10 +23,10 @@ fn look_up(table: &Table, i: i32) -> Option<u32> {
 }
 
 fn look_up_in_batch(table: &Table, i: i32) -> Option<u32> {
-    let (mut values, mut found) = ([0], [false]);
-    let counts = &mut CacheCounts::default();
-    table.look_up_batch(node(), |_| [0, i, 0], &mut values, &mut found, counts);
-    found[0].then_some(values[0])
+    let (mut keys, mut found) = (Keys::default(), Found::default());
+    table.prepare(node(), [&[0], &[i], &[0]], &mut keys);
+    table.look_up_prepared(&keys, &[node()], &mut found);
+    (found.masks()[0] == 1).then(|| found.words(0)[0])
 }
 
 #[test]

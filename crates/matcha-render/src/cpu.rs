@@ -6,6 +6,7 @@ use crate::backend::{
 use crate::film::{Film, PixelSums, Tile, filter::FilterTable};
 use crate::integrator::worker::Worker;
 use crate::integrator::{Frame, FrameCache};
+use crate::node_cache::CacheLayout;
 use crate::prepare::Prepared;
 use matcha_cache::{CacheCounts, Table, TableSize, available_memory, fitting_size};
 use matcha_shade::program::Program;
@@ -14,11 +15,19 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+/// The material cache of a scene.
+struct CpuCache {
+    table: Table,
+    /// For each material.
+    layouts: Vec<CacheLayout>,
+    level_offset: f32,
+}
+
 /// A prepared scene, its programs and cache, and a film.
 pub struct CpuBackend {
     prepared: Arc<Prepared>,
     programs: Arc<Vec<Program>>,
-    cache: Option<(Table, f32)>,
+    cache: Option<CpuCache>,
     pool: rayon::ThreadPool,
     workers: Vec<Mutex<Worker>>,
     tiles: Vec<Tile>,
@@ -42,11 +51,11 @@ impl CpuBackend {
         let programs = prepared.programs(cached)?;
         let [width, height] = prepared.resolution();
         let settings = &prepared.scene().settings;
-        let cache = make_cache(&options.cache)?;
-        if let Some((table, _)) = &cache
+        let cache = make_cache(&options.cache, &programs)?;
+        if let Some(cache) = &cache
             && programs.iter().any(|program| !program.regions().is_empty())
         {
-            table.populate();
+            cache.table.populate();
         }
         Ok(Self {
             programs,
@@ -76,7 +85,7 @@ impl CpuBackend {
     }
 
     fn cache_statistics(&self, counts: &CacheCounts) -> CacheStatistics {
-        let Some((table, _)) = &self.cache else {
+        let Some(CpuCache { table, .. }) = &self.cache else {
             return CacheStatistics::default();
         };
         CacheStatistics {
@@ -93,7 +102,7 @@ impl CpuBackend {
 }
 
 /// The table that a mode asks for. A size that nobody asked for shrinks until it fits.
-fn make_cache(mode: &CacheMode) -> Result<Option<(Table, f32)>, RenderError> {
+fn make_cache(mode: &CacheMode, programs: &[Program]) -> Result<Option<CpuCache>, RenderError> {
     let CacheMode::Paper {
         cells,
         entries,
@@ -118,7 +127,14 @@ fn make_cache(mode: &CacheMode) -> Result<Option<(Table, f32)>, RenderError> {
             size.cells
         );
     }
-    Ok(Some((Table::new(size)?, level_offset)))
+    let layouts = programs.iter().zip(0..);
+    Ok(Some(CpuCache {
+        table: Table::new(size)?,
+        layouts: layouts
+            .map(|(program, material)| CacheLayout::new(material, program))
+            .collect(),
+        level_offset,
+    }))
 }
 
 impl Backend for CpuBackend {
@@ -132,9 +148,10 @@ impl Backend for CpuBackend {
             prepared: &self.prepared,
             programs: &self.programs,
             filter: &self.filter,
-            cache: self.cache.as_ref().map(|(table, level_offset)| FrameCache {
-                table,
-                level_offset: *level_offset,
+            cache: self.cache.as_ref().map(|cache| FrameCache {
+                table: &cache.table,
+                layouts: &cache.layouts,
+                level_offset: cache.level_offset,
             }),
             seed: self.seed,
         };

@@ -112,7 +112,7 @@ fn measure(
         plain.program.words().len(),
         plain.program.slots(),
         cells.join(" | "),
-        cached.program.regions().len(),
+        cached.program.cacheable(),
         cached.program.rest(),
     );
 }

@@ -76,26 +76,27 @@ pub fn split_wide(network: &Network) -> Network {
     })
 }
 
-/// The nodes to cache, in order of evaluation, and the UV set of each. Choose on a
-/// network after [`split_wide`].
+/// The nodes to cache and the UV set of each: set by set, a set's nodes in order of
+/// evaluation. Choose on a network after [`split_wide`].
 pub fn choose(network: &Network, model: &CostModel) -> Vec<(NodeId, u16)> {
     let dependencies = dependencies(&network.graph);
-    let mut chosen = candidates(network);
-    chosen.retain(|&id| network.graph.ty(id) != Ty::F4);
+    let set_of = |id: NodeId| match dependencies[id.index()] {
+        Dependency::Uv(set) => (id, set),
+        other => unreachable!("candidates depend on one UV set, not on {other:?}"),
+    };
+    let mut chosen: Vec<(NodeId, u16)> = candidates(network)
+        .into_iter()
+        .filter(|&id| network.graph.ty(id) != Ty::F4)
+        .map(set_of)
+        .collect();
+    chosen.sort_by_key(|&(_, set)| set);
     let mut choice = Choice {
         network,
         model,
         chosen,
     };
     choice.drop_what_does_not_pay();
-    choice
-        .chosen
-        .into_iter()
-        .map(|id| match dependencies[id.index()] {
-            Dependency::Uv(set) => (id, set),
-            other => unreachable!("candidates depend on one UV set, not on {other:?}"),
-        })
-        .collect()
+    choice.chosen
 }
 
 /// Highest nodes that depend on one UV set alone and contain an operation.
@@ -173,75 +174,55 @@ fn contains_operation(graph: &Graph) -> Vec<bool> {
 struct Choice<'a> {
     network: &'a Network,
     model: &'a CostModel,
-    chosen: Vec<NodeId>,
+    /// Sorted by set.
+    chosen: Vec<(NodeId, u16)>,
 }
 
 impl Choice<'_> {
-    /// Drops nodes that save less than their look-up costs: first one by one, the worst
-    /// first, for a dropped node's values are then there for the others too; then in
-    /// clusters that share values, where each look-up alone seems to pay because the
-    /// others keep what is shared from being computed.
+    /// Drops nodes that save less than it costs to find them once their cell is there:
+    /// the worst first, for a dropped node's values are then there for the others too.
+    /// Then drops sets whose nodes together do not pay for the look-up of the cell.
     fn drop_what_does_not_pay(&mut self) {
         if self.model.lookup_ns <= 0.0 {
             return;
         }
         loop {
-            while let Some(worst) = self.worst_single() {
+            while let Some(worst) = self.worst_node() {
                 self.chosen.remove(worst);
             }
-            match self.worst_cluster() {
-                Some(cluster) => self.chosen.retain(|id| !cluster.contains(id)),
+            match self.worst_set() {
+                Some(set) => self.chosen.retain(|&(_, other)| other != set),
                 None => return,
             }
         }
     }
 
-    fn worst_single(&self) -> Option<usize> {
+    fn worst_node(&self) -> Option<usize> {
         let computed = self.computed_without_cache();
-        let saving = |&id: &NodeId| self.cost_beyond(&computed, &[id]);
+        let saving = |&(id, _): &(NodeId, u16)| self.cost_beyond(&computed, &[id]);
         let (at, least) = self
             .chosen
             .iter()
             .map(saving)
             .enumerate()
             .min_by(|a, b| a.1.total_cmp(&b.1))?;
-        (least <= self.model.lookup_ns).then_some(at)
+        (least <= self.model.value_ns).then_some(at)
     }
 
-    fn worst_cluster(&self) -> Option<Vec<NodeId>> {
+    fn worst_set(&self) -> Option<u16> {
         let computed = self.computed_without_cache();
-        self.clusters().into_iter().find(|cluster| {
-            let saving = self.cost_beyond(&computed, cluster);
-            cluster.len() > 1 && saving <= self.model.lookup_ns * cluster.len() as f32
-        })
-    }
-
-    /// Chosen nodes grouped by shared operations.
-    fn clusters(&self) -> Vec<Vec<NodeId>> {
-        let graph = &self.network.graph;
-        let mut clusters: Vec<(Vec<bool>, Vec<NodeId>)> = Vec::new();
-        for &id in &self.chosen {
-            let mut reach = vec![false; graph.nodes().len()];
-            reach_from(graph, &[id], &mut reach);
-            let costs = |i: usize| own_cost(graph, NodeId(i as u32), self.model) > 0.0;
-            let mut members = vec![id];
-            clusters.retain_mut(|(other, others)| {
-                let touches = (0..reach.len()).any(|i| reach[i] && other[i] && costs(i));
-                if touches {
-                    members.append(others);
-                    reach.iter_mut().zip(&*other).for_each(|(r, o)| *r |= o);
-                }
-                !touches
-            });
-            clusters.push((reach, members));
-        }
-        clusters.into_iter().map(|(_, members)| members).collect()
+        let of_one_set = |set: &[(NodeId, u16)]| {
+            let nodes: Vec<NodeId> = set.iter().map(|&(id, _)| id).collect();
+            let price = self.model.lookup_ns + self.model.value_ns * nodes.len() as f32;
+            (self.cost_beyond(&computed, &nodes) <= price).then_some(set[0].1)
+        };
+        self.chosen.chunk_by(|a, b| a.1 == b.1).find_map(of_one_set)
     }
 
     /// Nodes that are computed for every hit, given what is cached.
     fn computed_without_cache(&self) -> Vec<bool> {
         let mut stop = vec![false; self.network.graph.nodes().len()];
-        for id in &self.chosen {
+        for (id, _) in &self.chosen {
             stop[id.index()] = true;
         }
         let mut computed = stop.clone();
@@ -316,6 +297,7 @@ mod tests {
     fn costs(lookup_ns: f32) -> CostModel {
         CostModel {
             lookup_ns,
+            value_ns: 0.0,
             ..CostModel::of(Isa::Avx512)
         }
     }
@@ -415,6 +397,30 @@ mod tests {
         let cost = OpCode::series_of_halves.info().cost;
         assert_eq!(choose(&network, &costs(cost * 0.9)).len(), 1);
         assert_eq!(choose(&network, &costs(cost * 1.1)).len(), 0);
+    }
+
+    #[test]
+    fn nodes_of_a_set_share_a_look_up() {
+        let network = network_of(|g| {
+            let a = costly(g, 0);
+            let b = g.apply(OpCode::math_sine, &[a]);
+            let c = costly(g, 1);
+            tinted(g, &[a, b, c])
+        });
+        let (series, sine) = (
+            OpCode::series_of_halves.info().cost,
+            OpCode::math_sine.info().cost,
+        );
+        // One series would not pay for a look-up, but with the sine that uses it, it does.
+        let model = CostModel {
+            value_ns: 0.1 * sine,
+            ..costs(series + 0.5 * sine)
+        };
+        let sets = |model| -> Vec<u16> { choose(&network, &model).iter().map(|c| c.1).collect() };
+        assert_eq!(sets(model), [0, 0]);
+        // The sine is not worth an entry of its own, and without it the set is not either.
+        let value_ns = 1.1 * sine;
+        assert_eq!(sets(CostModel { value_ns, ..model }), []);
     }
 
     #[test]

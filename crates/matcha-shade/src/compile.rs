@@ -13,11 +13,12 @@ use crate::vm::Isa;
 pub struct CostModel {
     /// What the table's costs (measured with AVX-512) are multiplied by.
     pub operation_scale: f32,
-    /// A look-up in the material cache. A node is cached if it costs more. Long batches take 25 to
-    /// 40 ns; in whole renders groups are small and the table is out of every cache, and BMW27
-    /// was 5 % slower with a cache that believed 25 than without any, 2 % faster at 150.
+    /// A look-up of a virtual texel's cell in the material cache, and the share of its
+    /// misses. The nodes of a UV set are cached if they cost more together.
     /// With 0 every highest node is cached, as in the paper.
     pub lookup_ns: f32,
+    /// Finding and decoding one node's value in the cell. A node is cached if it adds more.
+    pub value_ns: f32,
     /// An image look-up.
     pub texture_ns: f32,
     /// A ramp's or curve's look-up.
@@ -36,7 +37,8 @@ impl CostModel {
         };
         CostModel {
             operation_scale,
-            lookup_ns: 150.0,
+            lookup_ns: 40.0,
+            value_ns: 6.0,
             texture_ns: 80.0,
             table_ns: 3.0,
         }
@@ -89,7 +91,7 @@ pub struct Compiled {
     pub program: Program,
     /// What it was emitted from.
     pub network: Network,
-    /// The network's cacheable nodes that got a region, in the regions' order, each
+    /// The network's nodes that are looked up, in the order of the regions' values, each
     /// with its UV set.
     pub cached: Vec<(NodeId, u16)>,
     /// Sizes, in order of the passes.

@@ -11,13 +11,15 @@ use crate::input::{Input, InputKind, Part};
 use crate::material::MaterialKind;
 use crate::opt::Network;
 use crate::program::{
-    CONSTANT, ClosureOutput, Program, ProgramError, Region, Splat, Word, special,
+    CONSTANT, CachedValue, ClosureOutput, NODES_ALIGNED, Program, ProgramError, Region, Splat,
+    Word, special,
 };
 use crate::vm::kernel::LANES;
 use registers::{Source, Step, slot, too_large};
 use std::collections::HashMap;
 
-/// Emits a network. `cached` are the nodes that get regions, with their UV sets.
+/// Emits a network. `cached` are the nodes that are looked up, with their UV sets; those of
+/// one set, which follow each other, become a region.
 pub fn emit(
     network: &Network,
     cached: &[(NodeId, u16)],
@@ -28,9 +30,10 @@ pub fn emit(
     let mut emitter = Emitter::default();
     emitter.number_inputs(network, cached);
     let mut results = HashMap::new();
-    for &(id, set) in cached {
-        let result = emitter.region(&network.graph, id, set, options)?;
-        results.insert(id, result);
+    for same in cached.chunk_by(|a, b| a.1 == b.1) {
+        let nodes: Vec<NodeId> = same.iter().map(|&(id, _)| id).collect();
+        let registers = emitter.region(&network.graph, &nodes, same[0].1, options)?;
+        results.extend(nodes.into_iter().zip(registers));
     }
     let outputs = emitter.rest(network, &results)?;
     let (closures, cost) = (
@@ -105,19 +108,18 @@ impl Emitter {
         found.expect("every input that is read was numbered").1
     }
 
-    /// Emits a region; returns the first register of its result.
+    /// Emits a region with the nodes of a UV set; returns the first register of each one's
+    /// value.
     fn region(
         &mut self,
         graph: &Graph,
-        id: NodeId,
+        nodes: &[NodeId],
         set: u16,
         options: &Options,
-    ) -> Result<u16, ProgramError> {
-        let ty = graph.ty(id);
-        let result = slot(self.pinned)?;
-        self.pinned += ty.width();
+    ) -> Result<Vec<u16>, ProgramError> {
         let number = self.regions.len() as u32;
         let start = self.words.len();
+        let mut values = self.cached_values(graph, nodes)?;
         let texel = slot(self.pinned)?;
         self.words.push(Word {
             op: special::LOOKUP,
@@ -125,40 +127,63 @@ impl Emitter {
             aux: number,
             ..Word::default()
         });
-        let (inner, value) = texel::at_centre(graph, id, set, options.optimise);
+        let (inner, roots) = texel::at_centre(graph, nodes, set, options.optimise);
         let placed = self.pinned + texel::REGISTERS;
-        let places = self.words_of(&inner, &[value], &HashMap::new(), placed, false, |input| {
+        let places = self.words_of(&inner, &roots, &HashMap::new(), placed, false, |input| {
             texel::register(input, texel)
         })?;
-        let mut store = Word {
-            op: special::STORE,
-            dst: result,
-            aux: number,
-            ..Word::default()
-        };
-        store.src[..ty.width()].copy_from_slice(&places[..ty.width()]);
-        self.words.push(store);
+        let mut rest = &places[..];
+        for (value, &root) in values.iter_mut().zip(&roots) {
+            let operands = rest.split_off(..value.ty.width()).expect("a place a component");
+            let mut store = Word {
+                op: special::STORE,
+                dst: value.result,
+                aux: number,
+                ..Word::default()
+            };
+            store.src[..operands.len()].copy_from_slice(operands);
+            self.words.push(store);
+            value.cost = cost_of(&inner, &[root], options);
+        }
         let uv_rows = [Part::Value, Part::AxisA, Part::AxisB].map(|part| {
             self.input_row(Input {
                 kind: InputKind::Uv(set),
                 part,
             })
         });
-        let live = schedule::order(&inner, &[value], |_| false);
+        let results = values.iter().map(|value| value.result).collect();
         self.regions.push(Region {
-            node: number,
+            number,
             uv_set: set,
-            ty,
-            encoding: encoding(graph, id),
+            values,
             words: start..self.words.len(),
-            result,
             uv_rows,
-            cost: live
-                .iter()
-                .map(|&id| cacheability::own_cost(&inner, id, &options.cost))
-                .sum(),
+            cost: cost_of(&inner, &roots, options),
         });
-        Ok(result)
+        Ok(results)
+    }
+
+    /// Gives registers and numbers to a region's values; their costs come later.
+    fn cached_values(
+        &mut self,
+        graph: &Graph,
+        nodes: &[NodeId],
+    ) -> Result<Vec<CachedValue>, ProgramError> {
+        let last = self.regions.last().and_then(|region| region.values.last());
+        let first = last.map_or(0, |value| (value.node + 1).next_multiple_of(NODES_ALIGNED));
+        let value = |(node, &id): (u32, &NodeId)| {
+            let ty = graph.ty(id);
+            let result = slot(self.pinned)?;
+            self.pinned += ty.width();
+            Ok(CachedValue {
+                node,
+                ty,
+                encoding: encoding(graph, id),
+                result,
+                cost: 0.0,
+            })
+        };
+        (first..).zip(nodes).map(value).collect()
     }
 
     /// Emits the words after the regions; returns the operand of each output row.
@@ -291,6 +316,15 @@ impl Emitter {
         program.verify()?;
         Ok(program)
     }
+}
+
+/// Cost of everything that the roots need, computed once.
+fn cost_of(graph: &Graph, roots: &[NodeId], options: &Options) -> f32 {
+    let live = schedule::order(graph, roots, |_| false);
+    let costs = live
+        .iter()
+        .map(|&id| cacheability::own_cost(graph, id, &options.cost));
+    costs.sum()
 }
 
 fn consecutive(first: u32) -> [Source; 4] {

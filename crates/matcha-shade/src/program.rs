@@ -1,8 +1,9 @@
 //! A compiled material: fixed-width words in execution order.
 //!
-//! First come the regions, one for each cacheable node: `lookup`, the node's words,
-//! `store`. A region reads only its virtual texel and constants and leaves only its
-//! result, so a hit that skips it leaves nothing undefined. Then come the other words.
+//! First come the regions, one for each UV set that cacheable nodes depend on: `lookup`,
+//! the words of all these nodes, a `store` for each. A region reads only its virtual texel
+//! and constants and leaves only its nodes' values, so a hit that skips it leaves nothing
+//! undefined. Then come the other words.
 
 mod disassemble;
 mod verify;
@@ -26,11 +27,12 @@ pub mod special {
     pub const TEXTURE: u16 = 0xff00;
     /// Table `aux` at one operand; as many results as the table has rows.
     pub const TABLE: u16 = 0xff01;
-    /// Region `aux` begins. On a hit in the cache the result's registers are set and
-    /// the words up to and with the region's `store` are skipped. On a miss `dst` and
-    /// the two registers after it become the texel's centre (u, v) and its size.
+    /// Region `aux` begins. Where the cache has all of its values, their registers are set
+    /// and the words up to and with the region's last `store` are skipped. Otherwise `dst`
+    /// and the two registers after it become the texel's centre (u, v) and its size.
     pub const LOOKUP: u16 = 0xff02;
-    /// Region `aux` ends: the operands are stored and copied to the result's registers.
+    /// Last words of region `aux`, one for each of its values in their order: the operands
+    /// are stored and copied to `dst`, the first of the value's registers.
     pub const STORE: u16 = 0xff03;
 }
 
@@ -48,25 +50,59 @@ pub struct Word {
     pub aux: u32,
 }
 
-/// A cacheable node of a program.
+/// The cacheable nodes of a program that depend on the same UV set. They have the same
+/// virtual texel, so that one key is made for all, and what they share is computed once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
-    /// Number in the program, the `node` of a cache key.
-    pub node: u32,
+    /// Number in the program.
+    pub number: u32,
     /// The UV set that it depends on.
     pub uv_set: u16,
+    /// The cacheable nodes, at least one.
+    pub values: Vec<CachedValue>,
+    /// Its words, from `lookup` to after the last `store`.
+    pub words: Range<usize>,
+    /// First input rows of its UV set: value, change along axis A, along axis B.
+    pub uv_rows: [usize; 3],
+    /// Estimated cost of evaluating all values, ns a point.
+    pub cost: f32,
+}
+
+/// A cacheable node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CachedValue {
+    /// The `node` of a cache key. Unique in the program; a region's are consecutive and
+    /// begin at a multiple of [`NODES_ALIGNED`].
+    pub node: u32,
     /// Type of its value.
     pub ty: Ty,
     /// How its value is packed.
     pub encoding: Encoding,
-    /// Its words, from `lookup` to after `store`.
-    pub words: Range<usize>,
-    /// First register of the result.
+    /// First register of the value.
     pub result: u16,
-    /// First input rows of its UV set: value, change along axis A, along axis B.
-    pub uv_rows: [usize; 3],
-    /// Estimated cost of evaluating it, ns a point.
+    /// Estimated cost of evaluating it alone, ns a point.
     pub cost: f32,
+}
+
+/// Numbers of a region's nodes begin at a multiple of this, so that a cache may keep
+/// consecutive ones together without mixing regions.
+pub const NODES_ALIGNED: u32 = 16;
+
+impl Region {
+    /// Components of all values.
+    pub fn width(&self) -> usize {
+        self.values.iter().map(|value| value.ty.width()).sum()
+    }
+
+    /// The words between `lookup` and the first `store`.
+    pub fn body(&self) -> Range<usize> {
+        self.words.start + 1..self.stores().start
+    }
+
+    /// The `store` words.
+    pub fn stores(&self) -> Range<usize> {
+        self.words.end - self.values.len()..self.words.end
+    }
 }
 
 /// Where a closure's rows are in the output.
@@ -98,7 +134,7 @@ pub struct Program {
     pub(crate) words: Vec<Word>,
     /// Registers that the machine needs.
     pub(crate) slots: usize,
-    /// Cacheable nodes, in the order of their words.
+    /// Regions, in the order of their words.
     pub(crate) regions: Vec<Region>,
     /// Constants by index.
     pub(crate) constants: Vec<f32>,
@@ -128,7 +164,7 @@ impl Program {
         self.slots
     }
 
-    /// Cacheable nodes, in the order of their words.
+    /// Regions, in the order of their words.
     pub fn regions(&self) -> &[Region] {
         &self.regions
     }
@@ -169,6 +205,11 @@ impl Program {
             .iter()
             .find(|(i, _)| *i == input)
             .map(|(_, row)| *row)
+    }
+
+    /// Number of cacheable nodes.
+    pub fn cacheable(&self) -> usize {
+        self.regions.iter().map(|region| region.values.len()).sum()
     }
 
     /// First word after the regions.

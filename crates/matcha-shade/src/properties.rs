@@ -22,7 +22,7 @@ use glam::Vec2;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::collections::HashMap;
-use support::{ExactCache, Formulas, Random};
+use support::{ExactCache, Formulas, Random, run_at};
 
 /// Not a multiple of the lanes.
 const POINTS: usize = 37;
@@ -296,9 +296,7 @@ fn run(
     n: usize,
     cache: Option<&mut dyn NodeCache>,
 ) -> Rows {
-    let mut out = Rows::default();
-    machine.run(program, n, rows, &Formulas, cache, 0.0, &mut out);
-    out
+    run_at(machine, program, n, rows, cache, 0.0).0
 }
 
 /// Every way to evaluate the material gives the oracle's values; all machines give the

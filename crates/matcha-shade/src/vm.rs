@@ -2,7 +2,7 @@
 //!
 //! For every region it asks the cache for the whole group at once, evaluates the
 //! region's words over the hits that were not found, put together without gaps, at
-//! their virtual texels' centres, and stores them. Then the other words run over all
+//! their virtual texels' centres, and stores their values. Then the other words run over all
 //! hits. A result depends only on the hit's own inputs, bit for bit: not on the other
 //! hits of the group, their number or order, nor on the instruction set.
 
@@ -11,13 +11,17 @@ pub mod kernel;
 mod region;
 pub mod scalar;
 mod tables;
+mod texels;
 
 use kernel::Kernel;
 pub use kernel::{Isa, LANES};
 
 pub use crate::rows::Rows;
 
+pub use texels::{Texel, Texels};
+
 use self::core::Core;
+use self::region::Cached;
 use crate::graph::TextureRef;
 use crate::ops;
 use crate::program::{Program, Region};
@@ -37,25 +41,19 @@ pub trait Textures {
     );
 }
 
-/// A square of size 2^-level on the unbounded plane of a UV set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Texel {
-    /// λ; larger is finer.
-    pub level: i32,
-    /// Position along u, in texels.
-    pub i: i32,
-    /// Position along v, in texels.
-    pub j: i32,
-}
-
-/// The material cache, for the machine. One material's: `Region::node` numbers its nodes.
+/// The material cache, for the machine. One material's: [`CachedValue::node`] numbers its
+/// nodes.
+///
+/// [`CachedValue::node`]: crate::program::CachedValue::node
 pub trait NodeCache {
-    /// Looks all texels up. Where one is found, its `found` becomes true and its column
-    /// of `out` (as many rows as the region's type has) the value.
-    fn look_up(&mut self, region: &Region, texels: &[Texel], out: &mut Rows, found: &mut [bool]);
+    /// Looks a region's values up at all texels. Where all of them are found, `found`
+    /// becomes true and the column of `out` the values (a row for each component, value
+    /// after value).
+    fn look_up(&mut self, region: &Region, texels: &Texels, out: &mut Rows, found: &mut [bool]);
 
-    /// Stores what was not found: the value of `texels[which[k]]` is column k.
-    fn store(&mut self, region: &Region, texels: &[Texel], which: &[u32], values: &Rows);
+    /// Stores what was not found: the values at texel `which[k]` are column k, and become
+    /// what a look-up would give, so that it does not matter who came first.
+    fn store(&mut self, region: &Region, texels: &Texels, which: &[u32], values: &mut Rows);
 }
 
 /// What a run did.
@@ -75,20 +73,6 @@ pub struct Machine {
     kernels: Vec<Kernel>,
     registers: Rows,
     cached: Cached,
-}
-
-/// Scratch memory of the regions of a run.
-#[derive(Default)]
-struct Cached {
-    /// Results of all regions, over the whole group.
-    results: Rows,
-    /// One region's values as the cache gave them.
-    values: Rows,
-    /// Values of the points that were not found, without gaps.
-    computed: Rows,
-    texels: Vec<Texel>,
-    found: Vec<bool>,
-    missed: Vec<u32>,
 }
 
 impl Machine {
@@ -119,28 +103,33 @@ impl Machine {
         self.isa
     }
 
-    /// Runs a program over `n` hits. `inputs` has the program's input rows; `out` is
-    /// given its output rows (for each closure: weight, then parameters). Without a
-    /// cache the regions of a program are evaluated at their virtual texels all the
-    /// same, for every hit. `level_offset` is added to λ.
+    /// Runs a program over `n` hits. `inputs` has the program's input rows, `texels` what
+    /// [`Texels::of_regions`] made of them; `out` is given the program's output rows (for
+    /// each closure: weight, then parameters). Without a cache the regions of a program
+    /// are evaluated at their virtual texels all the same, for every hit.
     ///
     /// # Panics
-    /// If `inputs` has fewer rows or points than asked for.
+    /// If `inputs` has fewer rows or points than asked for, or `texels` are not this
+    /// program's and group's.
     #[allow(clippy::too_many_arguments)]
     pub fn run(
         &mut self,
         program: &Program,
         n: usize,
         inputs: &Rows,
+        texels: &[Texels],
         textures: &dyn Textures,
         cache: Option<&mut dyn NodeCache>,
-        level_offset: f32,
         out: &mut Rows,
     ) -> RunCounts {
         assert!(inputs.rows() >= program.input_rows(), "rows of the inputs");
         assert!(
             inputs.points() >= n || program.input_rows() == 0,
             "points of the inputs"
+        );
+        assert!(
+            texels.len() >= program.regions().len(),
+            "texels for each region"
         );
         out.resize(program.output_rows(), n);
         let mut counts = RunCounts::default();
@@ -158,8 +147,8 @@ impl Machine {
             program,
             n,
             inputs,
+            texels,
             textures,
-            level_offset,
         };
         let registers = registers.row_mut(0);
         // So that a test sees it if a word reads what a skipped region did not write.
@@ -179,8 +168,8 @@ struct Group<'a> {
     program: &'a Program,
     n: usize,
     inputs: &'a Rows,
+    texels: &'a [Texels],
     textures: &'a dyn Textures,
-    level_offset: f32,
 }
 
 fn run_group<const N: usize>(
@@ -194,14 +183,12 @@ fn run_group<const N: usize>(
 ) {
     let program = group.program;
     let mut core = Core::<N>::new(program, kernels, registers, group.textures);
-    let width = program.regions().iter().map(|r| r.ty.width()).sum();
-    cached.results.resize(width, group.n);
-    let mut first = 0;
-    for region in program.regions() {
+    cached.prepare(program.regions().len());
+    for (region, texels) in program.regions().iter().zip(group.texels) {
+        assert_eq!(texels.len(), group.n, "a texel for each point");
         // A reborrow that the loop can repeat.
         let cache = cache.as_mut().map(|c| &mut **c as &mut dyn NodeCache);
-        region::run(group, region, &mut core, cached, cache, first, counts);
-        first += region.ty.width();
+        cached.run(region, texels, &mut core, cache, counts);
     }
     let words = program.rest()..program.words().len();
     for start in (0..group.n).step_by(N) {
@@ -209,15 +196,13 @@ fn run_group<const N: usize>(
         for row in 0..program.input_rows() {
             core.load(row, &group.inputs.row(row)[start..], active);
         }
-        let mut row = 0;
-        for region in program.regions() {
-            for i in 0..region.ty.width() {
-                core.load(
-                    region.result as usize + i,
-                    &cached.results.row(row)[start..],
-                    active,
-                );
-                row += 1;
+        for (region, values) in program.regions().iter().zip(&cached.results) {
+            let mut rows = 0..region.width();
+            for value in &region.values {
+                let first = value.result as usize;
+                for (register, row) in (first..first + value.ty.width()).zip(&mut rows) {
+                    core.load(register, &values.row(row)[start..], active);
+                }
             }
         }
         core.execute(words.clone(), active);

@@ -171,7 +171,7 @@ fn evaluate(case: &Value, points: &[Vec<[f32; 3]>], isa: Isa) -> Vec<[f32; 3]> {
     }
     let mut out = Rows::default();
     let mut machine = Machine::new(Some(isa));
-    machine.run(&program, n, &inputs, &Formulas, None, 0.0, &mut out);
+    machine.run(&program, n, &inputs, &[], &Formulas, None, &mut out);
     if program.closures.is_empty() {
         return vec![[0.0; 3]; n];
     }

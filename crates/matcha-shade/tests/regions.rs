@@ -9,7 +9,7 @@ use matcha_shade::input::InputKind;
 use matcha_shade::material::MaterialGraph;
 use matcha_shade::ops::OpCode;
 use matcha_shade::vm::{Isa, Machine, NodeCache, Rows};
-use support::{ExactCache, Formulas, Random, at_texel_centres, inputs};
+use support::{ExactCache, Random, at_texel_centres, inputs, run_at};
 
 const N: usize = 100;
 
@@ -54,9 +54,7 @@ fn run(
     rows: &Rows,
     cache: Option<&mut dyn NodeCache>,
 ) -> Rows {
-    let mut out = Rows::default();
-    Machine::new(isa).run(&c.program, n, rows, &Formulas, cache, 0.0, &mut out);
-    out
+    run_at(&mut Machine::new(isa), &c.program, n, rows, cache, 0.0).0
 }
 
 fn assert_equal(a: &Rows, b: &Rows, n: usize) {
@@ -73,10 +71,12 @@ fn assert_equal(a: &Rows, b: &Rows, n: usize) {
 /// Runs a material whose values depend on one UV set inside their cacheable parts, with
 /// a cache that is empty, half full and full, against the program without regions at
 /// the texels' centres.
-fn check(m: &MaterialGraph, regions: usize) {
+fn check(m: &MaterialGraph, values: usize) {
     let with = compiled(m, true);
     let without = compiled(m, false);
-    assert_eq!(with.program.regions().len(), regions, "{}", with.program);
+    assert_eq!(with.program.cacheable(), values, "{}", with.program);
+    let regions = with.program.regions().len();
+    assert_eq!(regions, 1, "one for all values of a set");
     assert_eq!(without.program.regions().len(), 0);
     let mut random = Random(7);
     let rows = inputs(&with.program, N, &mut random);
@@ -121,7 +121,7 @@ fn pattern(g: &mut Graph, k: f32) -> NodeId {
 }
 
 #[test]
-fn one_region() {
+fn one_value() {
     check(
         &material(|g| {
             let p = pattern(g, 3.0);
@@ -133,7 +133,7 @@ fn one_region() {
 }
 
 #[test]
-fn a_value_shared_by_two_regions() {
+fn a_value_shared_by_two_cached_ones() {
     check(
         &material(|g| {
             let shared = pattern(g, 3.0);
@@ -151,7 +151,7 @@ fn a_value_shared_by_two_regions() {
 }
 
 #[test]
-fn a_value_shared_by_a_region_and_the_rest() {
+fn a_value_that_the_rest_needs_too() {
     check(
         &material(|g| {
             let shared = pattern(g, 3.0);
@@ -167,7 +167,7 @@ fn a_value_shared_by_a_region_and_the_rest() {
 }
 
 #[test]
-fn components_of_one_value_are_one_region() {
+fn components_of_one_value_are_looked_up_once() {
     check(
         &material(|g| {
             let p = pattern(g, 3.0);
@@ -193,11 +193,10 @@ fn counts_tell_hits_from_misses() {
     let m = material(|g| vec![pattern(g, 2.0)]);
     let c = compiled(&m, true);
     let rows = inputs(&c.program, N, &mut Random(1));
-    let (mut cache, mut out) = (ExactCache::default(), Rows::default());
+    let mut cache = ExactCache::default();
     let mut machine = Machine::new(None);
-    let mut run = |cache: &mut ExactCache| {
-        machine.run(&c.program, N, &rows, &Formulas, Some(cache), 0.0, &mut out)
-    };
+    let mut run =
+        |cache: &mut ExactCache| run_at(&mut machine, &c.program, N, &rows, Some(cache), 0.0).1;
     let first = run(&mut cache);
     let second = run(&mut cache);
     assert_eq!((first.look_ups, first.found), (N as u64, 0));
@@ -210,16 +209,9 @@ fn a_level_offset_makes_texels_finer() {
     let c = compiled(&m, true);
     let rows = inputs(&c.program, N, &mut Random(1));
     let levels = |offset| {
-        let (mut cache, mut out) = (ExactCache::default(), Rows::default());
-        Machine::new(None).run(
-            &c.program,
-            N,
-            &rows,
-            &Formulas,
-            Some(&mut cache),
-            offset,
-            &mut out,
-        );
+        let mut cache = ExactCache::default();
+        let machine = &mut Machine::new(None);
+        run_at(machine, &c.program, N, &rows, Some(&mut cache), offset);
         let mut levels: Vec<i32> = cache.values.keys().map(|(_, t)| t.level).collect();
         levels.sort();
         levels

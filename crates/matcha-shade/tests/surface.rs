@@ -84,7 +84,7 @@ fn evaluate_at(material: &MaterialGraph, cache: bool, parameter: &str, moved: Ve
         }
     }
     let mut out = Rows::default();
-    Machine::new(None).run(&program, 1, &inputs, &Formulas, None, 0.0, &mut out);
+    Machine::new(None).run(&program, 1, &inputs, &[], &Formulas, None, &mut out);
     let closure = &program.closures[0];
     let rows = if parameter == "weight" {
         closure.first_row..closure.first_row + 3

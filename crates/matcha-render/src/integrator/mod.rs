@@ -18,6 +18,7 @@ use crate::device::path_meet::path_info;
 use crate::device::path_start::path_start;
 use crate::device::path_step::path_ray_mask;
 use crate::film::{PixelSums, Tile, filter::FilterTable};
+use crate::node_cache::CacheLayout;
 use crate::prepare::Prepared;
 use crate::scene::Scene;
 use crate::surface::PathInfo;
@@ -31,6 +32,8 @@ use path::{Path, PathSettings};
 pub struct FrameCache<'a> {
     /// The table.
     pub table: &'a Table,
+    /// Where each material's values are in it.
+    pub layouts: &'a [CacheLayout],
     /// Added to the level of the virtual texture.
     pub level_offset: f32,
 }

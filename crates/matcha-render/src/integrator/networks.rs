@@ -7,14 +7,14 @@ use crate::accel::Hit;
 use crate::closure::{self, ClosureContext, LobeSet, code, prepare_closure};
 use crate::device::closure_rows::{ClosureRows, closure_radiance, closure_shading_normal};
 use crate::device::path_meet::path_shadow_info;
-use crate::node_cache::{MaterialCache, Scratch};
+use crate::node_cache::{GroupKeys, MaterialCache};
 use crate::surface::{BackgroundRay, PathInfo, SurfacePoint, fill_background};
 use glam::Vec3;
-use matcha_cache::CacheCounts;
+use matcha_cache::{CacheCounts, Found};
 use matcha_shade::closure::ClosureKind;
 use matcha_shade::program::{ClosureOutput, Program};
 use matcha_shade::rows::Rows;
-use matcha_shade::vm::{Machine, NodeCache};
+use matcha_shade::vm::{Machine, NodeCache, Texels};
 use std::time::{Duration, Instant};
 
 /// Rows of the largest closure, with room.
@@ -23,70 +23,38 @@ const MOST_ROWS: usize = 64;
 /// One thread's machine and its buffers.
 pub struct Networks {
     machine: Machine,
-    inputs: Rows,
+    /// The group whose results are in `outputs`.
+    group: Group,
+    /// The one that is evaluated next.
+    announced: Group,
     outputs: Rows,
-    points: Vec<SurfacePoint>,
     rays: Vec<BackgroundRay>,
+    background: Rows,
     found: Vec<f32>,
     colors: Vec<Vec3>,
     lobes: LobeSet,
-    material: u32,
-    scratch: Scratch,
+    looked_up: Found,
     /// What the cache did for this thread.
     pub counts: CacheCounts,
     /// Time spent in the machine.
     pub time: Duration,
 }
 
-impl Networks {
-    /// Empty buffers and the best machine that the processor runs.
-    pub fn new() -> Self {
-        Self {
-            machine: Machine::new(None),
-            inputs: Rows::default(),
-            outputs: Rows::default(),
-            points: Vec::new(),
-            rays: Vec::new(),
-            found: Vec::new(),
-            colors: Vec::new(),
-            lobes: LobeSet::new(),
-            material: 0,
-            scratch: Scratch::default(),
-            counts: CacheCounts::default(),
-            time: Duration::ZERO,
-        }
-    }
+/// Hits on one material, and what their evaluation starts from.
+#[derive(Default)]
+struct Group {
+    material: u32,
+    points: Vec<SurfacePoint>,
+    inputs: Rows,
+    texels: Vec<Texels>,
+    keys: GroupKeys,
+}
 
-    /// Evaluates a material at the hits of a group.
-    pub fn surfaces(
-        &mut self,
-        frame: &Frame,
-        material: u32,
-        group: &[SurfaceTask],
-        paths: &[Path],
-    ) {
-        let hits = group
-            .iter()
-            .map(|task| (task.hit, paths[task.path as usize].info(task.hit.t)));
-        self.evaluate(frame, material, hits);
-    }
-
-    fn evaluate(
-        &mut self,
-        frame: &Frame,
-        material: u32,
-        hits: impl Iterator<Item = (Hit, PathInfo)>,
-    ) {
-        self.material = material;
-        self.points.clear();
-        self.points.extend(
-            hits.map(|(hit, path)| frame.prepared.surfaces.point(frame.scene(), &hit, &path)),
-        );
-        let program = frame.program(material);
+impl Group {
+    /// Everything up to the keys of the look-ups, whose cells are then on their way.
+    fn prepare(&mut self, frame: &Frame) {
+        let program = frame.program(self.material);
         let n = self.points.len();
-        self.found.clear();
-        self.found.resize(n, 0.0);
-        let start = Instant::now();
         self.inputs.resize(program.input_rows(), n);
         frame.prepared.surfaces.fill(
             frame.scene(),
@@ -94,22 +62,88 @@ impl Networks {
             &self.points,
             &mut self.inputs,
         );
-        let mut cache = frame.cache.map(|cache| {
-            MaterialCache::new(
-                cache.table,
-                material,
-                &mut self.found,
-                &mut self.counts,
-                &mut self.scratch,
-            )
+        let offset = frame.cache.map_or(0.0, |cache| cache.level_offset);
+        Texels::of_regions(&mut self.texels, program, n, &self.inputs, offset);
+        if let Some(cache) = frame.cache {
+            let layout = &cache.layouts[self.material as usize];
+            self.keys.prepare(cache.table, layout, &self.texels);
+        }
+    }
+}
+
+impl Networks {
+    /// Empty buffers and the best machine that the processor runs.
+    pub fn new() -> Self {
+        Self {
+            machine: Machine::new(None),
+            group: Group::default(),
+            announced: Group::default(),
+            outputs: Rows::default(),
+            rays: Vec::new(),
+            background: Rows::default(),
+            found: Vec::new(),
+            colors: Vec::new(),
+            lobes: LobeSet::new(),
+            looked_up: Found::default(),
+            counts: CacheCounts::default(),
+            time: Duration::ZERO,
+        }
+    }
+
+    /// Prepares the evaluation of a material at the hits of a group, so that memory has time
+    /// to bring what will be looked up. It becomes [`Networks::evaluate`]'s group; what the
+    /// one before it gave can still be read until then.
+    pub fn announce_surfaces(&mut self, frame: &Frame, group: &[SurfaceTask], paths: &[Path]) {
+        let hits = group
+            .iter()
+            .map(|task| (task.hit, paths[task.path as usize].info(task.hit.t)));
+        self.announce(frame, group[0].material, hits);
+    }
+
+    fn announce(
+        &mut self,
+        frame: &Frame,
+        material: u32,
+        hits: impl Iterator<Item = (Hit, PathInfo)>,
+    ) {
+        let group = &mut self.announced;
+        group.material = material;
+        group.points.clear();
+        group.points.extend(
+            hits.map(|(hit, path)| frame.prepared.surfaces.point(frame.scene(), &hit, &path)),
+        );
+        let start = Instant::now();
+        group.prepare(frame);
+        self.time += start.elapsed();
+    }
+
+    /// Makes the announced group the one to evaluate and to read; another may be announced.
+    pub fn advance(&mut self) {
+        std::mem::swap(&mut self.group, &mut self.announced);
+    }
+
+    /// Evaluates the group.
+    pub fn evaluate(&mut self, frame: &Frame) {
+        let start = Instant::now();
+        let group = &self.group;
+        let n = group.points.len();
+        self.found.clear();
+        self.found.resize(n, 0.0);
+        let mut cache = frame.cache.map(|cache| MaterialCache {
+            table: cache.table,
+            layout: &cache.layouts[group.material as usize],
+            keys: &group.keys,
+            found_nodes: &mut self.found,
+            counts: &mut self.counts,
+            found: &mut self.looked_up,
         });
         self.machine.run(
-            program,
+            frame.program(group.material),
             n,
-            &self.inputs,
+            &group.inputs,
+            &group.texels,
             &frame.prepared.textures,
             cache.as_mut().map(|cache| cache as &mut dyn NodeCache),
-            frame.cache.map_or(0.0, |cache| cache.level_offset),
             &mut self.outputs,
         );
         self.time += start.elapsed();
@@ -122,13 +156,13 @@ impl Networks {
 
     /// Point `i` of the group.
     pub fn point(&self, i: usize) -> &SurfacePoint {
-        &self.points[i]
+        &self.group.points[i]
     }
 
     /// Builds the closures of point `i` of the group.
     pub fn closures(&self, frame: &Frame, i: usize, context: &ClosureContext, lobes: &mut LobeSet) {
-        let program = frame.program(self.material);
-        build_lobes(program, &self.outputs, i, &self.points[i], context, lobes);
+        let program = frame.program(self.group.material);
+        build_lobes(program, &self.outputs, i, self.point(i), context, lobes);
     }
 
     /// Evaluates the world in the directions of paths that left the scene.
@@ -163,20 +197,20 @@ impl Networks {
     fn run_background(&mut self, frame: &Frame, program: &Program) {
         let n = self.rays.len();
         let start = Instant::now();
-        self.inputs.resize(program.input_rows(), n);
+        self.background.resize(program.input_rows(), n);
         fill_background(
             &frame.prepared.view,
             &program.inputs,
             &self.rays,
-            &mut self.inputs,
+            &mut self.background,
         );
         self.machine.run(
             program,
             n,
-            &self.inputs,
+            &self.background,
+            &[],
             &frame.prepared.textures,
             None,
-            0.0,
             &mut self.outputs,
         );
         self.time += start.elapsed();
@@ -251,11 +285,13 @@ impl Networks {
         material: u32,
         points: impl Iterator<Item = (Hit, Vec3)>,
     ) {
-        self.evaluate(
+        self.announce(
             frame,
             material,
             points.map(|(hit, towards)| (hit, path_shadow_info(towards, 0.0))),
         );
+        self.advance();
+        self.evaluate(frame);
     }
 
     fn collect(&mut self, frame: &Frame, read: impl Fn(&LobeSet) -> Vec3) {
@@ -265,7 +301,7 @@ impl Networks {
         };
         let mut lobes = std::mem::take(&mut self.lobes);
         self.colors.clear();
-        for i in 0..self.points.len() {
+        for i in 0..self.group.points.len() {
             self.closures(frame, i, &context, &mut lobes);
             self.colors.push(read(&lobes));
         }

@@ -17,18 +17,27 @@ impl Worker {
     pub(super) fn shade_surfaces(&mut self, frame: &Frame) {
         let mut tasks = std::mem::take(&mut self.surface_tasks);
         tasks.sort_unstable_by_key(|task| (task.material, task.path));
-        for same in tasks.chunk_by(|a, b| a.material == b.material) {
-            for group in same.chunks(GROUP) {
-                self.shade_group(frame, group);
+        let mut groups = tasks
+            .chunk_by(|a, b| a.material == b.material)
+            .flat_map(|same| same.chunks(GROUP))
+            .peekable();
+        if let Some(first) = groups.peek() {
+            self.networks.announce_surfaces(frame, first, &self.paths);
+        }
+        while let Some(group) = groups.next() {
+            self.networks.advance();
+            // One group ahead: its cells arrive while this one is shaded.
+            if let Some(next) = groups.peek() {
+                self.networks.announce_surfaces(frame, next, &self.paths);
             }
+            self.shade_group(frame, group);
         }
         tasks.clear();
         self.surface_tasks = tasks;
     }
 
     fn shade_group(&mut self, frame: &Frame, group: &[SurfaceTask]) {
-        let material = group[0].material;
-        self.networks.surfaces(frame, material, group, &self.paths);
+        self.networks.evaluate(frame);
         self.counts.shaded += group.len() as u64;
         for (i, task) in group.iter().enumerate() {
             let path = &mut self.paths[task.path as usize];

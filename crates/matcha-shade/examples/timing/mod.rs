@@ -34,7 +34,7 @@ pub fn time(program: &Program, isa: Isa, inputs: &Rows, points: usize) -> f64 {
     while tries < 12 || (tries < 60 && begin.elapsed().as_secs_f64() < 0.01) {
         let start = Instant::now();
         for _ in 0..runs {
-            machine.run(program, points, inputs, &NoTextures, None, 0.0, &mut out);
+            machine.run(program, points, inputs, &[], &NoTextures, None, &mut out);
         }
         best = best.min(start.elapsed().as_nanos() as f64 / (points * runs) as f64);
         tries += 1;

@@ -1,4 +1,4 @@
-//! A region's sub-graph at its virtual texel: the texel's centre takes the place of
+//! A region's sub-graphs at their virtual texel: the texel's centre takes the place of
 //! the hit's coordinate, its edges that of the footprint's axes.
 
 use crate::closure::ClosureKind;
@@ -19,21 +19,21 @@ pub(super) fn register(input: Input, texel: u16) -> u16 {
     }
 }
 
-/// A graph with the sub-graph of `root` alone, optimised, and its value there. Axis A
+/// A graph with the sub-graphs of `roots` alone, optimised, and their values there. Axis A
 /// is (size, 0) and axis B (0, size); the size is the first component of axis A.
 pub(super) fn at_centre(
     graph: &Graph,
-    root: NodeId,
+    roots: &[NodeId],
     set: u16,
     optimise: Optimise,
-) -> (Graph, NodeId) {
+) -> (Graph, Vec<NodeId>) {
     let mut whole = graph.clone();
-    // The value is a parameter, so that the passes keep it whatever it is; the closure
+    // The values are parameters, so that the passes keep them whatever they are; the closure
     // is only its carrier and must not be black.
     let output = WeightedClosure {
         kind: ClosureKind::Holdout,
         weight: whole.f3([1.0; 3]),
-        params: vec![root],
+        params: roots.to_vec(),
     };
     let network = Network {
         graph: whole,
@@ -58,9 +58,9 @@ pub(super) fn at_centre(
         }
         _ => graph.push_node(node),
     });
-    let inner = opt::settle(inner, optimise, 4);
-    let value = inner.closures[0].params[0];
-    (inner.graph, value)
+    let mut inner = opt::settle(inner, optimise, 4);
+    let values = inner.closures.remove(0).params;
+    (inner.graph, values)
 }
 
 fn size(graph: &mut Graph, set: u16) -> NodeId {

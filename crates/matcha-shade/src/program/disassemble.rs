@@ -53,15 +53,19 @@ impl Program {
         match word.op {
             special::LOOKUP => {
                 let region = &self.regions[word.aux as usize];
-                let result = registers(region.result as usize, region.ty.width());
-                let (set, encoding) = (region.uv_set, region.encoding);
-                let end = region.words.end;
+                let values = region.values.iter().map(|value| {
+                    let result = registers(value.result as usize, value.ty.width());
+                    format!("{result} {:?}", value.encoding)
+                });
+                let values: Vec<String> = values.collect();
                 format!(
-                    "{result} = lookup #{} uv{set} {encoding:?} else {dst}; found: {end}",
-                    word.aux
+                    "{} = lookup uv{} else {dst}; found: {}",
+                    values.join(", "),
+                    region.uv_set,
+                    region.words.end
                 )
             }
-            special::STORE => format!("{dst} = store #{} {src}", word.aux),
+            special::STORE => format!("{dst} = store {src}"),
             special::TEXTURE => {
                 let texture = self.textures[word.aux as usize];
                 format!(

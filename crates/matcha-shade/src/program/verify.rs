@@ -34,8 +34,9 @@ pub(crate) fn shape(program: &Program, word: &Word) -> Option<(usize, usize)> {
         special::TABLE => Some((1, program.tables.get(word.aux as usize)?.rows.len())),
         special::LOOKUP => program.regions.get(word.aux as usize).map(|_| (0, 3)),
         special::STORE => {
-            let width = program.regions.get(word.aux as usize)?.ty.width();
-            Some((width, width))
+            let values = &program.regions.get(word.aux as usize)?.values;
+            let value = values.iter().find(|value| value.result == word.dst)?;
+            Some((value.ty.width(), value.ty.width()))
         }
         op if (op as usize) < ops::all().count() => {
             let info = word.operation()?.info();
@@ -58,7 +59,8 @@ impl Program {
         defined[..self.input_rows].fill(true);
         let mut at = 0;
         for region in &self.regions {
-            if region.words.start != at || region.words.end <= at + 1 {
+            let least = at + 1 + region.values.len();
+            if region.words.start != at || region.words.end < least || region.values.is_empty() {
                 return Err(invalid(at, "regions are not one after the other"));
             }
             self.verify_region(region, &mut defined)?;
@@ -80,30 +82,28 @@ impl Program {
         Ok(())
     }
 
-    /// A region reads nothing but its texel, and leaves nothing but its result.
+    /// A region reads nothing but its texel, and leaves nothing but its values.
     fn verify_region(&self, region: &Region, defined: &mut [bool]) -> Result<(), ProgramError> {
         let words = region.words.clone();
         let expect = |index: usize, op| match self.words.get(index) {
-            Some(word) if word.op == op && word.aux == region.node => Ok(()),
+            Some(word) if word.op == op && word.aux == region.number => Ok(()),
             _ => Err(invalid(
                 index,
                 "a region does not begin with lookup and end with store",
             )),
         };
         expect(words.start, special::LOOKUP)?;
-        expect(words.end - 1, special::STORE)?;
+        for (store, value) in region.stores().zip(&region.values) {
+            expect(store, special::STORE)?;
+            if self.words[store].dst != value.result {
+                return Err(invalid(store, "stores elsewhere than in the region's values"));
+            }
+        }
         let mut inside = vec![false; defined.len()];
         for index in words.clone() {
             self.verify_word(index, &mut inside)?;
         }
-        let result = region.result as usize..region.result as usize + region.ty.width();
-        if self.words[words.end - 1].dst != region.result {
-            return Err(invalid(
-                words.end - 1,
-                "stores elsewhere than in the region's result",
-            ));
-        }
-        // All that the region writes besides its result must not be in use outside.
+        // All that the region writes must not be in use outside.
         for (slot, written) in inside.iter().enumerate() {
             if *written && defined[slot] {
                 return Err(invalid(
@@ -118,7 +118,10 @@ impl Program {
                 "the region's coordinate is not an input",
             ));
         }
-        defined[result].fill(true);
+        for value in &region.values {
+            let first = value.result as usize;
+            defined[first..first + value.ty.width()].fill(true);
+        }
         Ok(())
     }
 

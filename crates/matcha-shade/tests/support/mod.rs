@@ -4,7 +4,7 @@
 use matcha_shade::graph::TextureRef;
 use matcha_shade::input::{InputKind, Part};
 use matcha_shade::program::{Program, Region};
-use matcha_shade::vm::{NodeCache, Rows, Texel, Textures};
+use matcha_shade::vm::{Machine, NodeCache, Rows, RunCounts, Texel, Texels, Textures};
 use std::collections::HashMap;
 
 /// An exact cache of one material.
@@ -14,29 +14,56 @@ pub struct ExactCache {
     pub calls: usize,
 }
 
+impl ExactCache {
+    fn value(&self, region: &Region, texel: Texel) -> Option<Vec<f32>> {
+        let values = region.values.iter();
+        let all: Option<Vec<&Vec<f32>>> = values
+            .map(|value| self.values.get(&(value.node, texel)))
+            .collect();
+        Some(all?.into_iter().flatten().copied().collect())
+    }
+}
+
 impl NodeCache for ExactCache {
-    fn look_up(&mut self, region: &Region, texels: &[Texel], out: &mut Rows, found: &mut [bool]) {
+    fn look_up(&mut self, region: &Region, texels: &Texels, out: &mut Rows, found: &mut [bool]) {
         self.calls += 1;
-        for (k, texel) in texels.iter().enumerate() {
-            let value = self.values.get(&(region.node, *texel));
+        for k in 0..texels.len() {
+            let value = self.value(region, texels.get(k));
             found[k] = value.is_some();
-            for i in 0..region.ty.width() {
+            for i in 0..region.width() {
                 // What is not found must not be read.
-                out.set(i, k, value.map_or(f32::NAN, |v| v[i]));
+                out.set(i, k, value.as_ref().map_or(f32::NAN, |v| v[i]));
             }
         }
     }
 
-    fn store(&mut self, region: &Region, texels: &[Texel], which: &[u32], values: &Rows) {
+    fn store(&mut self, region: &Region, texels: &Texels, which: &[u32], values: &mut Rows) {
         for (column, &k) in which.iter().enumerate() {
-            let value = (0..region.ty.width())
-                .map(|i| values.get(i, column))
-                .collect();
-            self.values
-                .entry((region.node, texels[k as usize]))
-                .or_insert(value);
+            let mut rows = 0..region.width();
+            for value in &region.values {
+                let own = rows.by_ref().take(value.ty.width());
+                let number = own.map(|row| values.get(row, column)).collect();
+                self.values
+                    .entry((value.node, texels.get(k as usize)))
+                    .or_insert(number);
+            }
         }
     }
+}
+
+/// Runs a program over `n` hits with a level offset.
+pub fn run_at(
+    machine: &mut Machine,
+    program: &Program,
+    n: usize,
+    inputs: &Rows,
+    cache: Option<&mut dyn NodeCache>,
+    level_offset: f32,
+) -> (Rows, RunCounts) {
+    let (mut texels, mut out) = (Vec::new(), Rows::default());
+    Texels::of_regions(&mut texels, program, n, inputs, level_offset);
+    let counts = machine.run(program, n, inputs, &texels, &Formulas, cache, &mut out);
+    (out, counts)
 }
 
 /// Smooth images.

@@ -100,6 +100,8 @@ struct Entry {
     passes: Vec<Pass>,
     cacheable: Vec<Cacheable>,
     words: usize,
+    /// Of the words, those that are skipped where the cache has everything.
+    words_skipped: usize,
     /// Registers of the machine.
     slots: usize,
     /// Estimated, ns a point in lanes, without the cache.
@@ -123,20 +125,21 @@ struct Pass {
 struct Cacheable {
     uv_set: u16,
     encoding: String,
-    /// Words that a hit in the cache skips.
-    words: usize,
+    /// Estimated cost of it alone, ns a point in lanes.
     cost_ns: f32,
 }
 
 impl Entry {
     fn new(name: &str, nodes: usize, compiled: &Compiled, substituted: &[Substitution]) -> Self {
         let program = &compiled.program;
-        let cacheable = program.regions().iter().map(|region| Cacheable {
-            uv_set: region.uv_set,
-            encoding: format!("{:?}", region.encoding),
-            words: region.words.len(),
-            cost_ns: region.cost,
+        let cacheable = program.regions().iter().flat_map(|region| {
+            region.values.iter().map(|value| Cacheable {
+                uv_set: region.uv_set,
+                encoding: format!("{:?}", value.encoding),
+                cost_ns: value.cost,
+            })
         });
+        let skipped = program.regions().iter().map(|region| region.words.len());
         let passes = compiled.passes.iter().map(|pass| Pass {
             pass: pass.pass,
             nodes: pass.nodes,
@@ -148,6 +151,7 @@ impl Entry {
             passes: passes.collect(),
             cacheable: cacheable.collect(),
             words: program.words().len(),
+            words_skipped: skipped.sum(),
             slots: program.slots(),
             cost_ns: program.cost,
             closures: program
@@ -187,15 +191,17 @@ impl Entry {
             let Cacheable {
                 uv_set,
                 encoding,
-                words,
                 cost_ns,
             } = node;
             line(
                 "",
-                format!("{encoding}, UV set {uv_set}, {words} words, {cost_ns:.0} ns"),
+                format!("{encoding}, UV set {uv_set}, {cost_ns:.0} ns"),
             );
         }
-        line("words", self.words.to_string());
+        line(
+            "words",
+            format!("{}, {} of them cacheable", self.words, self.words_skipped),
+        );
         line("stack slots", self.slots.to_string());
         line("cost", format!("{:.0} ns a point", self.cost_ns));
         let closures = self.closures.iter().map(|kind| format!("{kind:?}"));
