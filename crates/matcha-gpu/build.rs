@@ -1,7 +1,9 @@
 //! Translates the workspace's device code into WGSL and has naga validate it together with
 //! the host layers, so that a mistake in either is an error of `cargo build` at its line.
 
-use matcha_wgsl::{FieldPlace, Module, Source, Translation, check, operations, translate};
+use matcha_wgsl::{
+    DispatchForm, FieldPlace, Module, Source, Translation, check, operations, translate,
+};
 use memory::placement::{Placement, PlacementLimits};
 use memory::section::{Declaration, column_declarations, constants, constants_text, declarations};
 use naga::valid::Capabilities;
@@ -23,6 +25,8 @@ mod items;
 #[path = "src/shader/prelude.rs"]
 #[allow(dead_code)]
 mod prelude;
+#[path = "src/machine/switch.rs"]
+mod switch;
 
 /// Folders of device modules, from the folder of crates.
 const DEVICE_MODULES: [&str; 3] = [
@@ -35,6 +39,15 @@ const DEVICE_MODULES: [&str; 3] = [
 const ATOMICS_64: Capabilities = Capabilities::SHADER_INT64
     .union(Capabilities::SHADER_INT64_ATOMIC_MIN_MAX)
     .union(Capabilities::SHADER_INT64_ATOMIC_ALL_OPS);
+
+/// How operations get at an instruction's operands (`src/wgsl/machine.wgsl`).
+const MACHINE: DispatchForm = DispatchForm {
+    name: "machine",
+    parameters: "word: u32",
+    arguments: "word",
+    operand: "machine_operand(word, {}u)",
+    immediate: "machine_immediate(word)",
+};
 
 fn main() {
     if let Err(error) = build() {
@@ -58,12 +71,19 @@ fn build() -> Result<(), Box<dyn Error>> {
     let operations = operations(&table, &families, &device)?;
     let mut code = device.source.clone();
     code.append(&operations.source());
+    code.append(&operations.one_by_one(&MACHINE));
     code.append(&Source::written("views", &view_sections(&device)));
     for layer in &host_layers {
         code.append(&columns(&device, layer)?);
     }
+    let codes: Vec<u16> = operations.entries.iter().map(|entry| entry.code).collect();
+    let mut all = code.clone();
+    all.append(&Source::written(
+        "the machine's switch",
+        &switch::switch(&codes),
+    ));
     for atomics_64 in [false, true] {
-        validate(&code, &host_layers, atomics_64)?;
+        validate(&all, &host_layers, atomics_64)?;
     }
     embed(&code, &host_layers)
 }

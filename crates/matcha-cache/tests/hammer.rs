@@ -48,7 +48,11 @@ fn hammer(table: &Table, thread: u64, rounds: usize, side: u32) -> CacheCounts {
         let nodes = [&[0, 1, 2][..], &[3], &[4, 5], &[6]][numbers.next() as usize % 4];
         let texels: Vec<[i32; 3]> = (0..100).map(|_| numbers.texel(side)).collect();
         let rows: [Vec<i32>; 3] = std::array::from_fn(|c| texels.iter().map(|t| t[c]).collect());
-        table.prepare(seeds[nodes[0]], rows.each_ref().map(|row| &row[..]), &mut keys);
+        table.prepare(
+            seeds[nodes[0]],
+            rows.each_ref().map(|row| &row[..]),
+            &mut keys,
+        );
         let own: Vec<NodeSeed> = nodes.iter().map(|&node| seeds[node]).collect();
         table.look_up_prepared(&keys, &own, &mut found);
         counts.lookups += (100 * nodes.len()) as u64;

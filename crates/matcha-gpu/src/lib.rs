@@ -17,6 +17,7 @@ pub mod adapter;
 pub mod batch;
 pub mod device;
 mod error;
+pub mod machine;
 pub mod memory;
 pub mod pipeline;
 pub mod shader;

@@ -42,14 +42,17 @@ impl CacheLayout {
     pub fn new(material: u32, program: &Program) -> Self {
         let regions = program.regions().iter();
         Self {
-            regions: regions.map(|region| shared_cells(material, region)).collect(),
+            regions: regions
+                .map(|region| shared_cells(material, region))
+                .collect(),
         }
     }
 }
 
 fn shared_cells(material: u32, region: &Region) -> Vec<SharedCells> {
     let mut row = 0;
-    let same_cell = |a: &CachedValue, b: &CachedValue| a.node / NODES_A_CELL == b.node / NODES_A_CELL;
+    let same_cell =
+        |a: &CachedValue, b: &CachedValue| a.node / NODES_A_CELL == b.node / NODES_A_CELL;
     let mut shared = Vec::new();
     for values in region.values.chunk_by(same_cell) {
         let mut cells = SharedCells {
@@ -148,7 +151,8 @@ impl NodeCache for MaterialCache<'_> {
                 let mask = value.mask();
                 let mut hits = 0;
                 let masks = self.found.masks().iter();
-                for ((found, nodes), bits) in found.iter_mut().zip(&mut *self.found_nodes).zip(masks)
+                for ((found, nodes), bits) in
+                    found.iter_mut().zip(&mut *self.found_nodes).zip(masks)
                 {
                     let hit = bits & mask == mask;
                     *found &= hit;
@@ -180,7 +184,13 @@ impl NodeCache for MaterialCache<'_> {
                     };
                     for part in 0..value.kind.words() {
                         let seed = cells.seeds[value.first_seed + part];
-                        self.table.insert_prepared(keys, at as usize, seed, words[part], self.counts);
+                        self.table.insert_prepared(
+                            keys,
+                            at as usize,
+                            seed,
+                            words[part],
+                            self.counts,
+                        );
                     }
                     for (number, row) in value.kind.decode(words).into_iter().zip(rows) {
                         values.row_mut(row)[k] = number;

@@ -134,7 +134,9 @@ impl Emitter {
         })?;
         let mut rest = &places[..];
         for (value, &root) in values.iter_mut().zip(&roots) {
-            let operands = rest.split_off(..value.ty.width()).expect("a place a component");
+            let operands = rest
+                .split_off(..value.ty.width())
+                .expect("a place a component");
             let mut store = Word {
                 op: special::STORE,
                 dst: value.result,

@@ -1,6 +1,8 @@
 // The stack machine: instructions of a program over one point, registers in private memory.
-// `machine_execute` (the switch over the operations that a scene uses) and MACHINE_REGISTERS
-// are written for each scene.
+// `machine_execute`, the switch over the operations that a scene uses, is written for each
+// scene (`crate::machine`).
+
+//@ constant MACHINE_REGISTERS 256
 
 var<private> machine_registers: array<f32, MACHINE_REGISTERS>;
 // First constant of the program that runs.
@@ -80,9 +82,9 @@ fn machine_load_background(program: u32, ray: PathInfo) {
     }
 }
 
-fn machine_set(register: u32, value: array<f32, 4>, width: u32) {
+fn machine_set(first: u32, value: array<f32, 4>, width: u32) {
     var components = value;
     for (var i = 0u; i < width; i += 1u) {
-        machine_registers[register + i] = components[i];
+        machine_registers[first + i] = components[i];
     }
 }

@@ -35,6 +35,7 @@ pub mod path_shade;
 pub mod path_start;
 pub mod path_state;
 pub mod path_step;
+pub mod program_view;
 pub mod ray_box;
 pub mod ray_kind;
 pub mod ray_triangle;

@@ -96,7 +96,10 @@ impl Program {
         for (store, value) in region.stores().zip(&region.values) {
             expect(store, special::STORE)?;
             if self.words[store].dst != value.result {
-                return Err(invalid(store, "stores elsewhere than in the region's values"));
+                return Err(invalid(
+                    store,
+                    "stores elsewhere than in the region's values",
+                ));
             }
         }
         let mut inside = vec![false; defined.len()];

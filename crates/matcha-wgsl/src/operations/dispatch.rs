@@ -71,6 +71,26 @@ impl Operations {
     }
 }
 
+impl Operations {
+    /// A function for each operation that gives its result as `vec4f`, unused components zero:
+    /// the form's name, `_of_` and the code; its parameters are the form's. For hosts that
+    /// make a switch over some of them later.
+    pub fn one_by_one(&self, form: &DispatchForm) -> Source {
+        let mut source = Source::default();
+        for operation in &self.entries {
+            let line = format!(
+                "fn {}_of_{}({}) -> vec4f {{ {} }}",
+                form.name,
+                operation.code,
+                form.parameters,
+                statements(operation, form)
+            );
+            source.push(&line, operation.place.clone());
+        }
+        source
+    }
+}
+
 fn close(source: &mut Source, place: &Place) {
     source.push("        default: { return vec4f(); }", place.clone());
     source.push("    }", place.clone());
@@ -78,15 +98,20 @@ fn close(source: &mut Source, place: &Place) {
 }
 
 fn case(operation: &Operation, form: &DispatchForm) -> String {
+    let statements = statements(operation, form);
+    format!("        case {}u: {{ {statements} }}", operation.code)
+}
+
+/// Statements that return an operation's result.
+fn statements(operation: &Operation, form: &DispatchForm) -> String {
     let call = call(operation, form);
-    let statements = match operation.result {
+    match operation.result {
         OperandType::F1 => format!("return vec4f({call}, 0.0, 0.0, 0.0);"),
         OperandType::F2 => format!("return vec4f({call}, 0.0, 0.0);"),
         OperandType::F3 => format!("return vec4f({call}, 0.0);"),
         OperandType::F4 => format!("let r = {call}; return vec4f(r[0], r[1], r[2], r[3]);"),
         OperandType::Immediate => "return vec4f();".to_owned(),
-    };
-    format!("        case {}u: {{ {statements} }}", operation.code)
+    }
 }
 
 fn call(operation: &Operation, form: &DispatchForm) -> String {

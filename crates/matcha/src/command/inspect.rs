@@ -193,10 +193,7 @@ impl Entry {
                 encoding,
                 cost_ns,
             } = node;
-            line(
-                "",
-                format!("{encoding}, UV set {uv_set}, {cost_ns:.0} ns"),
-            );
+            line("", format!("{encoding}, UV set {uv_set}, {cost_ns:.0} ns"));
         }
         line(
             "words",
