@@ -7,6 +7,7 @@ pub mod cpu;
 pub mod device;
 mod emission;
 pub mod film;
+pub mod flat;
 pub mod integrator;
 pub mod light;
 mod node_cache;

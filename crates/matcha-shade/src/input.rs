@@ -296,6 +296,7 @@ mod tests {
                 kind.is_differentiable(),
                 "{kind:?}"
             );
+            assert_eq!(input_width(code) as usize, kind.width(), "{kind:?}");
             for part in [Part::Value, Part::AxisA, Part::AxisB] {
                 let packed = Input { kind, part }.packed();
                 let parts = (input_code(packed), input_part(packed), input_name(packed));

@@ -16,7 +16,7 @@ const MISSING: u16 = u16::MAX;
 #[derive(Clone, Debug)]
 pub struct SurfaceTables {
     pub(super) view: CameraView,
-    pub(super) placed: Vec<SurfacePlacement>,
+    pub(crate) placed: Vec<SurfacePlacement>,
     /// Layers by mesh and UV name.
     uv_sets: Vec<u16>,
     uv_names: usize,
@@ -24,8 +24,8 @@ pub struct SurfaceTables {
     attributes: Vec<u16>,
     attribute_names: usize,
     /// By mesh; empty where no program asks.
-    pub(super) islands: Vec<Vec<f32>>,
-    pub(super) pointiness: Vec<Vec<f32>>,
+    pub(crate) islands: Vec<Vec<f32>>,
+    pub(crate) pointiness: Vec<Vec<f32>>,
 }
 
 impl SurfaceTables {
@@ -70,16 +70,43 @@ impl SurfaceTables {
         }
     }
 
+    /// Number of UV names.
+    pub(crate) fn uv_names(&self) -> usize {
+        self.uv_names
+    }
+
+    /// Number of attribute names.
+    pub(crate) fn attribute_names(&self) -> usize {
+        self.attribute_names
+    }
+
+    /// Index of the layer of a mesh that a UV name means; beyond its layers if it has none.
+    #[inline]
+    pub(crate) fn uv_layer(&self, mesh: u32, name: u16) -> usize {
+        let known = (name as usize) < self.uv_names;
+        let entry = mesh as usize * self.uv_names + name as usize;
+        let layer = if known { self.uv_sets.get(entry) } else { None };
+        usize::from(layer.copied().unwrap_or(MISSING))
+    }
+
+    /// Index of the layer of a mesh that an attribute name means; likewise.
+    #[inline]
+    pub(crate) fn attribute_layer(&self, mesh: u32, name: u16) -> usize {
+        let known = (name as usize) < self.attribute_names;
+        let entry = mesh as usize * self.attribute_names + name as usize;
+        let layer = if known {
+            self.attributes.get(entry)
+        } else {
+            None
+        };
+        usize::from(layer.copied().unwrap_or(MISSING))
+    }
+
     /// The layer of a mesh that a UV name means.
     #[inline]
     pub(super) fn uv_set<'s>(&self, scene: &'s Scene, mesh: u32, name: u16) -> Option<&'s UvSet> {
-        if name as usize >= self.uv_names {
-            return None;
-        }
-        let layer = *self
-            .uv_sets
-            .get(mesh as usize * self.uv_names + name as usize)?;
-        scene.meshes[mesh as usize].uv_sets.get(layer as usize)
+        let sets = &scene.meshes[mesh as usize].uv_sets;
+        sets.get(self.uv_layer(mesh, name))
     }
 
     /// Values of a mesh's attribute at the corners of a triangle.
@@ -91,13 +118,8 @@ impl SurfaceTables {
         name: u16,
         triangle: u32,
     ) -> Option<&'s [glam::Vec4; 3]> {
-        if name as usize >= self.attribute_names {
-            return None;
-        }
-        let layer = *self
-            .attributes
-            .get(mesh as usize * self.attribute_names + name as usize)?;
-        let layer = scene.meshes[mesh as usize].attributes.get(layer as usize)?;
+        let layers = &scene.meshes[mesh as usize].attributes;
+        let layer = layers.get(self.attribute_layer(mesh, name))?;
         layer.corners.get(triangle as usize)
     }
 

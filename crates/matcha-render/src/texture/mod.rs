@@ -4,6 +4,7 @@
 //! numbers and the result is made linear, as Cycles does, so that a magnified picture looks the
 //! same. Coarser levels are averaged in linear light and encoded again.
 
+pub(crate) mod look;
 mod pyramid;
 mod sample;
 mod srgb;
@@ -11,16 +12,15 @@ mod srgb;
 mod tests;
 
 use crate::device::texture_color::texture_unassociated;
+use crate::device::texture_view::*;
 use crate::scene::{AlphaMode, ColorSpace, Image};
 use matcha_shade::graph::{AlphaHandling, TextureRef};
 use matcha_shade::vm::Textures;
-use pyramid::{Level, build_pyramid};
+use pyramid::build_pyramid;
+pub(crate) use pyramid::{Level, Texels};
 use rayon::prelude::*;
 use sample::Points;
 use srgb::Decoder;
-
-/// What a look-up gives where there is no image: Cycles' pink.
-const MISSING: [f32; 4] = [1.0, 0.0, 1.0, 1.0];
 
 /// An image, ready to be sampled.
 #[derive(Clone, Debug)]
@@ -61,6 +61,17 @@ impl TextureSet {
         Self { textures, decoder }
     }
 
+    /// The pyramid of an image that is used, with its `TEXTURE_` flags: for devices that need
+    /// all texels in one array.
+    pub(crate) fn pyramid(&self, image: u32) -> Option<(u32, &[Level])> {
+        let texture = self.textures.get(image as usize)?.as_ref()?;
+        let bit = |holds: bool, bit: u32| if holds { bit } else { 0 };
+        let flags = bit(texture.encoded, TEXTURE_ENCODED)
+            | bit(texture.associated, TEXTURE_PREMULTIPLIED)
+            | bit(texture.opaque, TEXTURE_OPAQUE);
+        Some((flags, &texture.levels))
+    }
+
     /// Memory of the pyramids without the finest levels that the scene shares, bytes.
     pub fn bytes(&self) -> usize {
         let levels = self.textures.iter().flatten().flat_map(|t| &t.levels);
@@ -95,7 +106,7 @@ impl Textures for TextureSet {
         let [bu, bv] = db.map(|row| &row[..n]);
         let [r, g, b, a] = out.map(|row| &mut row[..n]);
         let Some(Some(image)) = self.textures.get(texture.image as usize) else {
-            for (row, value) in [r, g, b, a].into_iter().zip(MISSING) {
+            for (row, value) in [r, g, b, a].into_iter().zip(TEXTURE_MISSING) {
                 row.fill(value);
             }
             return;

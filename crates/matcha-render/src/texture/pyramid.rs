@@ -6,23 +6,23 @@ use std::sync::Arc;
 
 /// Texels of a level, rows from the top.
 #[derive(Clone, Debug)]
-pub(super) enum Texels {
+pub(crate) enum Texels {
     Bytes(Arc<Vec<[u8; 4]>>),
     Floats(Arc<Vec<[f32; 4]>>),
 }
 
 /// One resolution of an image.
 #[derive(Clone, Debug)]
-pub(super) struct Level {
-    pub(super) width: u32,
-    pub(super) height: u32,
-    pub(super) texels: Texels,
+pub(crate) struct Level {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) texels: Texels,
     /// The texels are the scene's.
     shared: bool,
 }
 
 impl Level {
-    pub(super) fn is_bytes(&self) -> bool {
+    pub(crate) fn is_bytes(&self) -> bool {
         matches!(self.texels, Texels::Bytes(_))
     }
 

@@ -1,37 +1,19 @@
 //! Filtering on the processor: reads and sums the texels that `device::texture_filter` names.
 
 use super::Texture;
+use super::look::{filter_code, wrap_code};
 use super::pyramid::{Level, Texels};
 use crate::device::texture_filter::*;
 use glam::{Vec2, vec2};
-use matcha_shade::graph::{Interpolation, TextureRef};
-use matcha_shade::source::Extension;
+use matcha_shade::graph::TextureRef;
 
-/// A look-up's settings as device code knows them.
+/// How a look-up filters, as device code knows it.
 #[derive(Clone, Copy)]
 struct Look {
     /// One of `TEXTURE_CLOSEST`, `TEXTURE_LINEAR`, `TEXTURE_CUBIC`.
     filter: u32,
     /// One of `TEXTURE_REPEAT` and its siblings.
     wrap: u32,
-}
-
-impl Look {
-    fn new(texture: &TextureRef) -> Self {
-        Self {
-            filter: match texture.interpolation {
-                Interpolation::Closest => TEXTURE_CLOSEST,
-                Interpolation::Linear => TEXTURE_LINEAR,
-                Interpolation::Cubic | Interpolation::Smart => TEXTURE_CUBIC,
-            },
-            wrap: match texture.extension {
-                Extension::Repeat => TEXTURE_REPEAT,
-                Extension::Extend => TEXTURE_EXTEND,
-                Extension::Clip => TEXTURE_CLIP,
-                Extension::Mirror => TEXTURE_MIRROR,
-            },
-        }
-    }
 }
 
 /// Where a group of points looks an image up; every row has as many numbers as there are points.
@@ -53,7 +35,7 @@ impl Texture {
         self.filter_each(texture, points, out);
     }
 
-    /// With AVX2 rounding down is an instruction and not a call, and bytes widen in one step.
+    /// With AVX2 bytes widen in one step.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
     fn filter_all_avx2(&self, texture: &TextureRef, points: &Points, out: [&mut [f32]; 4]) {
@@ -66,7 +48,10 @@ impl Texture {
         let [u, v] = points.uv.map(|row| &row[..n]);
         let [[au, av], [bu, bv]] = points.axes.map(|axis| axis.map(|row| &row[..n]));
         let [r, g, b, a] = out.map(|row| &mut row[..n]);
-        let look = Look::new(texture);
+        let look = Look {
+            filter: filter_code(texture.interpolation),
+            wrap: wrap_code(texture.extension),
+        };
         let size = vec2(self.levels[0].width as f32, self.levels[0].height as f32);
         let last = self.levels.len() as u32 - 1;
         for i in 0..n {

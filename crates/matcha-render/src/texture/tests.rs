@@ -248,14 +248,20 @@ fn the_finest_level_is_shared_with_the_scene() {
 fn missing_and_lying_images_are_pink() {
     let mut broken = image(4, 4, noise);
     broken.height = 9;
-    assert_eq!(look_up(&broken, reference(), [0.5; 2], POINT), MISSING);
+    assert_eq!(
+        look_up(&broken, reference(), [0.5; 2], POINT),
+        TEXTURE_MISSING
+    );
     let far = TextureRef {
         image: 7,
         ..reference()
     };
-    assert_eq!(look_up(&broken, far, [0.5; 2], POINT), MISSING);
+    assert_eq!(look_up(&broken, far, [0.5; 2], POINT), TEXTURE_MISSING);
     let empty = image(0, 0, noise);
-    assert_eq!(look_up(&empty, reference(), [0.5; 2], POINT), MISSING);
+    assert_eq!(
+        look_up(&empty, reference(), [0.5; 2], POINT),
+        TEXTURE_MISSING
+    );
 }
 
 #[test]

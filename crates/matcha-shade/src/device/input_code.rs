@@ -112,3 +112,20 @@ pub fn input_name(packed: u32) -> u32 {
 pub fn input_is_differentiable(code: u32) -> bool {
     code <= INPUT_NORMAL || (code >= INPUT_GENERATED && code <= INPUT_ATTRIBUTE)
 }
+
+/// Rows that a quantity takes.
+#[inline(always)]
+pub fn input_width(code: u32) -> u32 {
+    if code == INPUT_UV || code == INPUT_PARAMETRIC {
+        2
+    } else if code == INPUT_ATTRIBUTE {
+        4
+    } else if code == INPUT_TANGENT_SIGN
+        || (code >= INPUT_BACKFACING && code <= INPUT_RANDOM_PER_ISLAND)
+        || code >= INPUT_OBJECT_ALPHA
+    {
+        1
+    } else {
+        3
+    }
+}
