@@ -5,31 +5,28 @@
 
 pub mod filter;
 
-use glam::{Vec3, Vec4};
+use glam::Vec3;
 
 /// Sums over the samples of one pixel.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct PixelSums {
-    /// Radiance, linear Rec.709, with the coverage (alpha) in w.
-    pub radiance: Vec4,
-    /// Albedo of the first surface that is not transparent.
-    pub albedo: Vec3,
-    /// Its shading normal, world space.
-    pub normal: Vec3,
-    /// Distance to it from the camera, metres; nothing is added where nothing is hit.
-    pub depth: f32,
-    /// Samples that hit a surface: the divisor of `depth`.
-    pub depth_samples: f32,
-    /// Cacheable nodes found in the cache along the whole path.
-    pub nodes_found: f32,
-    /// Number of samples.
-    pub samples: f32,
-}
+pub use crate::device::path_state::FilmSums as PixelSums;
 
 impl PixelSums {
+    /// No samples.
+    pub const EMPTY: Self = Self {
+        radiance: Vec3::ZERO,
+        alpha: 0.0,
+        albedo: Vec3::ZERO,
+        normal: Vec3::ZERO,
+        depth: 0.0,
+        depth_samples: 0.0,
+        nodes_found: 0.0,
+        samples: 0.0,
+    };
+
     /// Adds the sums of another set of samples.
     pub fn add(&mut self, other: &PixelSums) {
         self.radiance += other.radiance;
+        self.alpha += other.alpha;
         self.albedo += other.albedo;
         self.normal += other.normal;
         self.depth += other.depth;
@@ -44,6 +41,12 @@ impl PixelSums {
         } else {
             0.0
         }
+    }
+}
+
+impl Default for PixelSums {
+    fn default() -> Self {
+        Self::EMPTY
     }
 }
 
@@ -83,6 +86,11 @@ impl Film {
         self.pixels.len() * size_of::<PixelSums>()
     }
 
+    /// Adds sums of the pixel with a number, rows from the top.
+    pub fn add_pixel(&mut self, pixel: usize, sums: &PixelSums) {
+        self.pixels[pixel].add(sums);
+    }
+
     /// Adds a tile's sums, row by row.
     pub fn add_tile(&mut self, tile: &Tile, sums: &[PixelSums]) {
         for (row, line) in sums.chunks(tile.width as usize).enumerate() {
@@ -118,10 +126,9 @@ impl Film {
     /// The picture, linear Rec.709 with premultiplied alpha, row by row.
     pub fn combined(&self) -> Vec<[f32; 4]> {
         self.map(|p| {
-            let mean = p.radiance * p.per_sample();
-            (mean.truncate() * self.exposure)
-                .extend(mean.w.clamp(0.0, 1.0))
-                .to_array()
+            let color = p.radiance * p.per_sample() * self.exposure;
+            let alpha = (p.alpha * p.per_sample()).clamp(0.0, 1.0);
+            color.extend(alpha).to_array()
         })
     }
 
@@ -227,7 +234,8 @@ mod tests {
             height: 1,
         };
         let sample = PixelSums {
-            radiance: Vec4::new(1.0, 2.0, 3.0, 1.0),
+            radiance: Vec3::new(1.0, 2.0, 3.0),
+            alpha: 1.0,
             samples: 2.0,
             ..Default::default()
         };

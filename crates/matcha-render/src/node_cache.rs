@@ -60,7 +60,7 @@ fn shared_cells(material: u32, region: &Region) -> Vec<SharedCells> {
             values: Vec::new(),
         };
         for value in values {
-            let kind = kind(value);
+            let kind = value_kind(value);
             cells.values.push(Place {
                 kind,
                 first_seed: cells.seeds.len(),
@@ -76,7 +76,8 @@ fn shared_cells(material: u32, region: &Region) -> Vec<SharedCells> {
     shared
 }
 
-fn kind(value: &CachedValue) -> ValueKind {
+/// How a value is packed.
+pub(crate) fn value_kind(value: &CachedValue) -> ValueKind {
     match (value.encoding, value.ty.width()) {
         (Encoding::Scalar, _) => ValueKind::Scalar,
         (Encoding::Gradient, _) => ValueKind::Pair,

@@ -180,3 +180,9 @@ pub fn geometry_point(
         instance, primitive, distance, weights, &triangle, &placement, path,
     )
 }
+
+/// Whether an instance cuts a hole into the film.
+#[inline]
+pub fn geometry_holdout(view: GeometryView, instance: u32) -> bool {
+    view.instances[instance as usize].holdout != 0
+}

@@ -209,3 +209,9 @@ pub struct LightView<'a> {
     /// Spherical harmonics of the map's luminance; order as in `light_world_irradiance`.
     pub world_harmonics: [f32; 9],
 }
+
+/// Which light of the scene an analytic light is.
+#[inline]
+pub fn light_scene_light(view: LightView, light: u32) -> u32 {
+    view.lights[light as usize].scene_light
+}

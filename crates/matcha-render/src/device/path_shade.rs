@@ -41,6 +41,8 @@ pub struct ShadowTask {
     pub origin: Vec3,
     /// Its unit direction.
     pub direction: Vec3,
+    /// Distance from which on surfaces count, metres: behind those that let it pass.
+    pub t_min: f32,
     /// Its length, metres; the largest number towards a distant light.
     pub t_max: f32,
     /// Instance and triangle that it leaves.
@@ -73,6 +75,7 @@ pub fn path_no_task() -> ShadowTask {
         value: splat3(0.0),
         origin: splat3(0.0),
         direction: splat3(0.0),
+        t_min: 0.0,
         t_max: 0.0,
         leaves: [LIGHT_NONE, LIGHT_NONE],
         casts_shadow: false,
@@ -161,6 +164,7 @@ pub fn path_task(
         value,
         origin: segment.origin,
         direction: segment.direction,
+        t_min: 0.0,
         t_max: segment.t_max,
         leaves: [point.instance, point.primitive],
         casts_shadow: draw.cast_shadow,
@@ -296,14 +300,16 @@ pub fn path_shade(
     path_go_on(settings, path, point, set, distance)
 }
 
-/// Weakens a sampled light by a surface on its way that lets `through` of it pass; nothing is
-/// left where too many surfaces are.
+/// Weakens a sampled light by a surface on its way, at the distance `t`, that lets `through` of
+/// it pass, and goes on behind it; nothing is left where too many surfaces are.
 #[inline]
-pub fn path_task_through(task: &mut ShadowTask, through: Vec3) {
+pub fn path_task_through(task: &mut ShadowTask, through: Vec3, t: f32, leaves: [u32; 2]) {
     if task.transparent == 0 {
         task.value = splat3(0.0);
     } else {
         task.value *= through;
         task.transparent -= 1;
     }
+    task.t_min = t;
+    task.leaves = leaves;
 }

@@ -68,6 +68,56 @@ pub struct Path {
     pub depth: f32,
 }
 
+/// Where a path's ray meets a triangle, and the triangle's weights of its second and third
+/// corner.
+#[derive(Clone, Copy, Debug)]
+pub struct PathHit {
+    /// Distance, metres.
+    pub t: f32,
+    /// Weight of the second corner.
+    pub u: f32,
+    /// Weight of the third corner.
+    pub v: f32,
+    /// Index into `Scene::instances`.
+    pub instance: u32,
+    /// Triangle of the instance's mesh.
+    pub primitive: u32,
+}
+
+/// What the samples of a pixel add up to.
+#[derive(Clone, Copy, Debug)]
+pub struct FilmSums {
+    /// Radiance, linear Rec.709.
+    pub radiance: Vec3,
+    /// Coverage.
+    pub alpha: f32,
+    /// Albedo of the first surface that is not transparent.
+    pub albedo: Vec3,
+    /// Its shading normal, world space.
+    pub normal: Vec3,
+    /// Distance to it from the camera, metres.
+    pub depth: f32,
+    /// Samples that hit a surface: the divisor of `depth`.
+    pub depth_samples: f32,
+    /// Cacheable nodes found in the cache along the whole path.
+    pub nodes_found: f32,
+    /// Number of samples.
+    pub samples: f32,
+}
+
+/// Adds a finished path.
+#[inline]
+pub fn film_add(sums: &mut FilmSums, path: &Path) {
+    sums.radiance += path.radiance;
+    sums.alpha += clamp(path.alpha, 0.0, 1.0);
+    sums.albedo += path.albedo;
+    sums.normal += path.normal;
+    sums.depth += max(path.depth, 0.0);
+    sums.depth_samples += select(0.0, 1.0, path.depth >= 0.0);
+    sums.nodes_found += path.nodes_found;
+    sums.samples += 1.0;
+}
+
 /// What of a scene's settings the rules of a path ask.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]

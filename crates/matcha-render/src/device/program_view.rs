@@ -178,3 +178,33 @@ pub fn program_ramp(view: ProgramView, index: u32, x: f32) -> [f32; 4] {
     }
     value
 }
+
+/// A program's head.
+#[inline]
+pub fn program_head(view: ProgramView, program: u32) -> ProgramHead {
+    view.heads[program as usize]
+}
+
+/// A region by its number among all programs'.
+#[inline]
+pub fn program_region(view: ProgramView, region: u32) -> ProgramRegion {
+    view.regions[region as usize]
+}
+
+/// A value by its number among all programs'.
+#[inline]
+pub fn program_value(view: ProgramView, value: u32) -> ProgramValue {
+    view.values[value as usize]
+}
+
+/// A closure by its number among all programs'.
+#[inline]
+pub fn program_closure(view: ProgramView, closure: u32) -> ProgramClosure {
+    view.closures[closure as usize]
+}
+
+/// The operand that an output row is read from, by its number among all programs'.
+#[inline]
+pub fn program_output(view: ProgramView, row: u32) -> u32 {
+    view.outputs[row as usize]
+}

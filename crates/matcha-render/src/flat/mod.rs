@@ -6,11 +6,13 @@
 
 mod geometry;
 mod layers;
+mod programs;
 #[cfg(test)]
 mod tests;
 mod texture;
 
 pub use geometry::FlatGeometry;
+pub use programs::FlatPrograms;
 pub use texture::FlatTextures;
 
 /// Words of a view's field: its name in translated device code, and what is in it.

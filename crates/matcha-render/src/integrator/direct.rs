@@ -74,33 +74,24 @@ impl Worker {
     /// all rays together; drops rays that meet too many or an opaque one. Lights that cast no
     /// shadows pass everything.
     fn attenuate(&mut self, frame: &Frame, tasks: &mut Vec<LightTask>) {
-        let mut rays: Vec<(usize, Ray)> = tasks
-            .iter()
-            .enumerate()
-            .filter(|(_, task)| task.shadow.casts_shadow)
-            .map(|(i, task)| (i, shadow_ray(&task.shadow, ray_kind::TRANSPARENT_SHADOW)))
+        let mut waiting: Vec<usize> = (0..tasks.len())
+            .filter(|&i| tasks[i].shadow.casts_shadow)
             .collect();
-        while !rays.is_empty() {
+        while !waiting.is_empty() {
             let mut layer: Vec<SurfaceTask> = Vec::new();
-            self.counts.rays += rays.len() as u64;
-            rays.retain(|(i, ray)| match frame.prepared.accel.closest(ray) {
-                Some(hit) => {
-                    let material = frame.material_of(&hit);
-                    layer.push(SurfaceTask {
-                        path: *i as u32,
-                        material,
-                        hit,
-                    });
-                    true
-                }
-                None => false,
+            self.counts.rays += waiting.len() as u64;
+            waiting.retain(|&i| {
+                let ray = shadow_ray(&tasks[i].shadow, ray_kind::TRANSPARENT_SHADOW);
+                let hit = frame.prepared.accel.closest(&ray);
+                layer.extend(hit.map(|hit| SurfaceTask {
+                    path: i as u32,
+                    material: frame.material_of(&hit),
+                    hit,
+                }));
+                hit.is_some()
             });
             self.apply_layer(frame, tasks, &mut layer);
-            for ((i, ray), task) in rays.iter_mut().zip(&layer) {
-                debug_assert_eq!(*i, task.path as usize);
-                step_behind(ray, &task.hit);
-            }
-            rays.retain(|&(i, _)| tasks[i].shadow.value != Vec3::ZERO);
+            waiting.retain(|&i| tasks[i].shadow.value != Vec3::ZERO);
         }
         tasks.retain(|task| task.shadow.value != Vec3::ZERO);
     }
@@ -119,7 +110,9 @@ impl Worker {
                     .transparency_of_points(frame, material, points);
                 for (n, &k) in group.iter().enumerate() {
                     let through = self.networks.transparency(n);
-                    path_task_through(&mut tasks[layer[k].path as usize].shadow, through);
+                    let SurfaceTask { path, hit, .. } = layer[k];
+                    let leaves = [hit.instance, hit.primitive];
+                    path_task_through(&mut tasks[path as usize].shadow, through, hit.t, leaves);
                 }
             }
         }
@@ -130,7 +123,7 @@ fn shadow_ray(shadow: &ShadowTask, mask: u8) -> Ray {
     Ray {
         origin: shadow.origin,
         direction: shadow.direction,
-        t_min: 0.0,
+        t_min: shadow.t_min,
         t_max: shadow.t_max,
         mask,
         excluded: shadow.leaves,
@@ -146,9 +139,4 @@ fn emitter_hit(shadow: &ShadowTask) -> Hit {
         u: shadow.uv.x,
         v: shadow.uv.y,
     }
-}
-
-fn step_behind(ray: &mut Ray, hit: &Hit) {
-    ray.t_min = hit.t;
-    ray.excluded = [hit.instance, hit.primitive];
 }

@@ -16,6 +16,7 @@ pub use networks::Networks;
 use crate::accel::{Hit, Ray, visibility_mask};
 use crate::device::path_meet::path_info;
 use crate::device::path_start::path_start;
+use crate::device::path_state::film_add;
 use crate::device::path_step::path_ray_mask;
 use crate::film::{PixelSums, Tile, filter::FilterTable};
 use crate::node_cache::CacheLayout;
@@ -116,15 +117,6 @@ impl Path {
 
     /// Adds the finished path to its pixel.
     pub(crate) fn add_to(&self, sums: &mut [PixelSums]) {
-        let hit = self.depth >= 0.0;
-        sums[self.pixel as usize].add(&PixelSums {
-            radiance: self.radiance.extend(self.alpha.clamp(0.0, 1.0)),
-            albedo: self.albedo,
-            normal: self.normal,
-            depth: self.depth.max(0.0),
-            depth_samples: f32::from(u8::from(hit)),
-            nodes_found: self.nodes_found,
-            samples: 1.0,
-        });
+        film_add(&mut sums[self.pixel as usize], self);
     }
 }
