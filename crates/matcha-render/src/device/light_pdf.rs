@@ -18,7 +18,7 @@ use glam::Vec3;
 use matcha_shade::device::math::vec3;
 
 /// Emitter of a primitive of an instance, or `LIGHT_NONE`.
-#[inline]
+#[inline(always)]
 pub fn light_emitter_of(view: LightView, instance: u32, primitive: u32) -> u32 {
     if instance >= view.first.len() as u32 {
         return LIGHT_NONE;
@@ -33,7 +33,7 @@ pub fn light_emitter_of(view: LightView, instance: u32, primitive: u32) -> u32 {
 /// Density with which `light_sample` finds a point of a triangle that a ray from `p` in the
 /// unit direction `wi` meets at `distance`; zero where the triangle is not sampled, or not on
 /// this side.
-#[inline]
+#[inline(always)]
 pub fn light_pdf_triangle(
     view: LightView,
     instance: u32,
@@ -58,13 +58,13 @@ pub fn light_pdf_triangle(
 }
 
 /// Density with which `light_sample` finds the world in the unit direction `wi`.
-#[inline]
+#[inline(always)]
 pub fn light_pdf_world(view: LightView, p: Vec3, n: Vec3, wi: Vec3) -> f32 {
     light_shares(view, p, n).world * light_world_pdf(view, n, wi)
 }
 
 /// Probability with which `light_sample` draws an analytic light.
-#[inline]
+#[inline(always)]
 pub fn light_probability(view: LightView, index: u32, p: Vec3, n: Vec3) -> f32 {
     let shares = light_shares(view, p, n);
     let kind = view.lights[index as usize].shape.kind;
@@ -105,7 +105,7 @@ pub fn light_met_nothing() -> LightMet {
 
 /// Radiance and density of an analytic light that a ray in the unit direction `wi` meets.
 /// `p` and `n` belong to the last scattering and `distance` counts from there.
-#[inline]
+#[inline(always)]
 pub fn light_met(
     view: LightView,
     index: u32,
@@ -128,7 +128,7 @@ pub fn light_met(
 
 /// Sun `k` as a ray sees it that left the scene in the unit direction `wi`; `kind` is the
 /// ray's `RAY_` bit, `p` and `n` belong to the last scattering.
-#[inline]
+#[inline(always)]
 pub fn light_sun_met(view: LightView, k: u32, p: Vec3, n: Vec3, wi: Vec3, kind: u32) -> LightMet {
     let index = view.suns[k as usize].index;
     // Unlike other lights, a sun without multiple importance is not even on camera.

@@ -6,7 +6,7 @@ use crate::device::light_analytic::{
     AnalyticLight, LIGHT_FAR, light_attenuation, light_direction_sample,
 };
 use crate::device::light_shares::{
-    LIGHT_SHARE_NONE, LIGHT_SHARE_SUNS, LIGHT_SHARE_TREE, light_choose_share, light_shares,
+    LIGHT_SHARE_NONE, LIGHT_SHARE_TREE, LIGHT_SHARE_WORLD, light_choose_share, light_shares,
 };
 use crate::device::light_sun::light_choose_sun;
 use crate::device::light_tree::light_tree_sample;
@@ -150,7 +150,7 @@ pub fn light_emission(shape: &AnalyticLight, tree: u32, p: Vec3, wi: Vec3) -> Li
 }
 
 /// Samples an emissive triangle that was drawn with the probability `chosen`.
-#[inline]
+#[inline(always)]
 pub fn light_sample_triangle(
     view: LightView,
     emitter: u32,
@@ -190,7 +190,7 @@ pub fn light_sample_triangle(
 }
 
 /// Samples an analytic light that was drawn with the probability `chosen`.
-#[inline]
+#[inline(always)]
 pub fn light_sample_analytic(
     view: LightView,
     index: u32,
@@ -224,7 +224,7 @@ pub fn light_sample_analytic(
 }
 
 /// Samples the world, which was drawn with the probability `chosen`.
-#[inline]
+#[inline(always)]
 pub fn light_sample_world(view: LightView, n: Vec3, u: Vec2, chosen: f32) -> LightDraw {
     let sampled = light_world_sample(view, n, u);
     let mut draw = light_no_draw();
@@ -249,32 +249,36 @@ pub fn light_sample_world(view: LightView, n: Vec3, u: Vec2, chosen: f32) -> Lig
 
 /// Draws a light and a direction to it from the point `p`, whose unit normal is `n`, or zero
 /// where light from both sides counts. `select` and `u` are in [0, 1).
-#[inline]
+#[inline(always)]
 pub fn light_sample(view: LightView, p: Vec3, n: Vec3, select: f32, u: Vec2) -> LightDraw {
     let shares = light_shares(view, p, n);
     let share = light_choose_share(shares, select);
     if share.kind == LIGHT_SHARE_NONE {
         return light_no_draw();
     }
+    if share.kind == LIGHT_SHARE_WORLD {
+        return light_sample_world(view, n, u, shares.world);
+    }
+    let index;
+    let chosen;
     if share.kind == LIGHT_SHARE_TREE {
         let local = light_tree_sample(view, p, n, share.place);
         if !local.found {
             return light_no_draw();
         }
-        let chosen = shares.tree * local.probability;
+        chosen = shares.tree * local.probability;
         let triangles = view.triangles.len() as u32;
         if local.index < triangles {
             return light_sample_triangle(view, local.index, p, u, chosen);
         }
-        let index = view.local[(local.index - triangles) as usize];
-        return light_sample_analytic(view, index, p, n, u, chosen);
-    }
-    if share.kind == LIGHT_SHARE_SUNS {
+        index = view.local[(local.index - triangles) as usize];
+    } else {
         let sun = light_choose_sun(view, n, share.place);
         if !sun.found {
             return light_no_draw();
         }
-        return light_sample_analytic(view, sun.index, p, n, u, shares.suns * sun.probability);
+        chosen = shares.suns * sun.probability;
+        index = sun.index;
     }
-    light_sample_world(view, n, u, shares.world)
+    light_sample_analytic(view, index, p, n, u, chosen)
 }

@@ -72,7 +72,7 @@ pub fn light_shares_of(from_tree: f32, from_suns: f32, from_world: f32) -> Light
 }
 
 /// Shares at the point `p` with normal `n`.
-#[inline]
+#[inline(always)]
 pub fn light_shares(view: LightView, p: Vec3, n: Vec3) -> LightShares {
     if view.suns.len() as u32 == 0 && view.world_kind == LIGHT_WORLD_NONE {
         return LightShares {

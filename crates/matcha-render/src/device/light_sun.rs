@@ -25,7 +25,7 @@ pub fn light_sun_irradiance(sun: LightSun, n: Vec3) -> f32 {
 }
 
 /// The suns' irradiances together.
-#[inline]
+#[inline(always)]
 pub fn light_suns_irradiance(view: LightView, n: Vec3) -> f32 {
     let mut sum = 0.0;
     let mut k = 0;
@@ -37,7 +37,7 @@ pub fn light_suns_irradiance(view: LightView, n: Vec3) -> f32 {
 }
 
 /// Chooses a sun by its irradiance, with `u` in [0, 1).
-#[inline]
+#[inline(always)]
 pub fn light_choose_sun(view: LightView, n: Vec3, u: f32) -> LightChoice {
     let sum = light_suns_irradiance(view, n);
     let mut choice = LightChoice {
@@ -66,7 +66,7 @@ pub fn light_choose_sun(view: LightView, n: Vec3, u: f32) -> LightChoice {
 }
 
 /// Probability with which [`light_choose_sun`] chooses sun `k`.
-#[inline]
+#[inline(always)]
 pub fn light_sun_probability(view: LightView, k: u32, n: Vec3) -> f32 {
     let sum = light_suns_irradiance(view, n);
     if sum > 0.0 {

@@ -114,7 +114,7 @@ pub struct LightChoice {
 
 /// Draws an emitter with `select` in [0, 1); none where the descent ends among lights that
 /// cannot reach the point.
-#[inline]
+#[inline(always)]
 pub fn light_tree_sample(view: LightView, p: Vec3, n: Vec3, select: f32) -> LightChoice {
     let mut choice = LightChoice {
         found: false,
@@ -150,7 +150,7 @@ pub fn light_tree_sample(view: LightView, p: Vec3, n: Vec3, select: f32) -> Ligh
 }
 
 /// Probability with which [`light_tree_sample`] draws an emitter: upwards from its slot.
-#[inline]
+#[inline(always)]
 pub fn light_tree_probability(view: LightView, emitter: u32, p: Vec3, n: Vec3) -> f32 {
     if emitter >= view.slots.len() as u32 {
         return 0.0;
@@ -174,7 +174,7 @@ pub fn light_tree_probability(view: LightView, emitter: u32, p: Vec3, n: Vec3) -
 }
 
 /// Importance of all emitters of the tree together.
-#[inline]
+#[inline(always)]
 pub fn light_tree_importance(view: LightView, p: Vec3, n: Vec3) -> f32 {
     if view.nodes.len() as u32 == 0 {
         return 0.0;

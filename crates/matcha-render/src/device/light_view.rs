@@ -162,8 +162,10 @@ pub const LIGHT_WORLD_CONSTANT: u32 = 1;
 /// [`LightView::world_kind`]: sampled by an importance map.
 pub const LIGHT_WORLD_MAP: u32 = 2;
 
-/// All lights. Local ones, which hang in the tree, are numbered as its emitters: emissive
-/// triangles first, then those analytic lights that are not suns.
+/// All lights. Functions over the view are always inlined, so that it is never copied whole.
+///
+/// Local lights, which hang in the tree, are numbered as its emitters: emissive triangles
+/// first, then those analytic lights that are not suns.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LightView<'a> {
     /// The light tree, root first.

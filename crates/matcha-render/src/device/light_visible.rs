@@ -53,7 +53,7 @@ pub struct LightNearest {
 
 /// Nearest visible analytic light between `t_min` and `t_max` on a ray with a unit direction.
 /// Suns are not among them. `kind` is the ray's `RAY_` bit.
-#[inline]
+#[inline(always)]
 pub fn light_nearest(
     view: LightView,
     origin: Vec3,

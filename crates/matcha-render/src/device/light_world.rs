@@ -15,7 +15,8 @@ use crate::device::light_view::{LIGHT_WORLD_CONSTANT, LIGHT_WORLD_MAP, LightView
 use crate::device::mapping::{mapping_cone, mapping_cosine, mapping_frame, mapping_place};
 use glam::{Vec2, Vec3};
 use matcha_shade::device::math::{
-    FRAC_1_PI, PI, TAU, acos, atan2, clamp, cos, dot, max, select, sin, sqrt, to_int, vec3,
+    FRAC_1_PI, PI, TAU, acos, atan2, clamp, cos, dot, max, select, select_u32, sin, sqrt, to_int,
+    vec3,
 };
 
 /// Start of the cosines of the rows' edges in the tables of a map with `height` rows.
@@ -47,7 +48,7 @@ pub struct LightWorldDirection {
 
 /// Estimate of the luminous irradiance that the world brings to a surface with unit normal
 /// `n`; zero `n`: mean of both sides.
-#[inline]
+#[inline(always)]
 pub fn light_world_estimate(view: LightView, n: Vec3) -> f32 {
     let mean = view.world_irradiance;
     if view.world_kind != LIGHT_WORLD_MAP || light_from_both_sides(n) {
@@ -68,18 +69,16 @@ pub struct LightInterval {
 
 /// Interval that holds `u` in the cumulative distribution of `count` intervals that begins
 /// at `start` of the world's tables.
-#[inline]
+#[inline(always)]
 pub fn light_world_find(view: LightView, start: u32, count: u32, u: f32) -> LightInterval {
     // The last edge is 1, above every u.
     let mut low = 0;
     let mut high = count;
     while high - low > 1 {
         let middle = (low + high) / 2;
-        if view.world[(start + middle) as usize] <= u {
-            low = middle;
-        } else {
-            high = middle;
-        }
+        let above = view.world[(start + middle) as usize] <= u;
+        low = select_u32(low, middle, above);
+        high = select_u32(middle, high, above);
     }
     let from = view.world[(start + low) as usize];
     let width = view.world[(start + low + 1) as usize] - from;
@@ -95,7 +94,7 @@ pub fn light_world_find(view: LightView, start: u32, count: u32, u: f32) -> Ligh
 }
 
 /// Density over solid angle in a texel of the map.
-#[inline]
+#[inline(always)]
 pub fn light_world_texel_pdf(view: LightView, x: u32, y: u32) -> f32 {
     let row = light_world_row(view.world_width, view.world_height, y) + x;
     let of_row = view.world[(y + 1) as usize] - view.world[y as usize];
@@ -105,7 +104,7 @@ pub fn light_world_texel_pdf(view: LightView, x: u32, y: u32) -> f32 {
 }
 
 /// A direction of the map for `u` in [0, 1)².
-#[inline]
+#[inline(always)]
 pub fn light_world_map_sample(view: LightView, u: Vec2) -> LightWorldDirection {
     let row = light_world_find(view, 0, view.world_height, u.y);
     let start = light_world_row(view.world_width, view.world_height, row.index);
@@ -129,7 +128,7 @@ pub fn light_world_index(x: f32, count: u32) -> u32 {
 }
 
 /// Density with which [`light_world_map_sample`] finds a unit direction.
-#[inline]
+#[inline(always)]
 pub fn light_world_map_pdf(view: LightView, direction: Vec3) -> f32 {
     let s = 0.5 - atan2(direction.y, direction.x) / TAU;
     let t = acos(clamp(direction.z, -1.0, 1.0)) / PI;
@@ -149,7 +148,7 @@ pub fn light_world_constant_pdf(n: Vec3, wi: Vec3) -> f32 {
 }
 
 /// Samples the world: its map, or where it is constant the cosine around `n`.
-#[inline]
+#[inline(always)]
 pub fn light_world_sample(view: LightView, n: Vec3, u: Vec2) -> LightWorldDirection {
     if view.world_kind == LIGHT_WORLD_MAP {
         return light_world_map_sample(view, u);
@@ -167,7 +166,7 @@ pub fn light_world_sample(view: LightView, n: Vec3, u: Vec2) -> LightWorldDirect
 }
 
 /// Density of [`light_world_sample`]; 0 where the world is not sampled.
-#[inline]
+#[inline(always)]
 pub fn light_world_pdf(view: LightView, n: Vec3, wi: Vec3) -> f32 {
     if view.world_kind == LIGHT_WORLD_MAP {
         return light_world_map_pdf(view, wi);
