@@ -75,6 +75,11 @@ impl Device {
         })
     }
 
+    /// Whether kernels may use 64-bit atomic operations.
+    pub fn has_atomics_64(&self) -> bool {
+        self.report().atomics_64
+    }
+
     /// What it is and offers.
     pub fn report(&self) -> &AdapterReport {
         &self.shared.report

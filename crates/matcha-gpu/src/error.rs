@@ -51,6 +51,9 @@ pub enum GpuError {
         /// How much it was.
         bytes: u64,
     },
+    /// The scene is more than the device can take.
+    #[error("{0}")]
+    Scene(String),
     /// A limit of the device.
     #[error("{0}")]
     Placement(#[from] PlacementError),

@@ -14,6 +14,7 @@
 //! bound to its arguments (group 0) and to memories (groups 1, 2, …).
 
 pub mod adapter;
+pub mod backend;
 pub mod batch;
 pub mod device;
 mod error;
@@ -24,5 +25,6 @@ pub mod shader;
 #[doc(hidden)]
 pub mod testing;
 pub mod trace;
+pub mod wavefront;
 
 pub use error::GpuError;
