@@ -2,20 +2,17 @@
 
 // Rows of as many words as there is room for rays: origin, direction, t_min, t_max, mask,
 // excluded instance and primitive.
-//@ read trace_rays
+//@ read trace_rays 11
 // Rows: t, u, v, instance, primitive.
-//@ write trace_hits
+//@ write trace_hits 5
 //@ plain trace_count
-
-const TRACE_RAY_ROWS = 11u;
-const TRACE_HIT_ROWS = 5u;
 
 fn trace_ray_float(row: u32, i: u32) -> f32 {
     return bitcast<f32>(trace_ray_word(row, i));
 }
 
 fn trace_ray_word(row: u32, i: u32) -> u32 {
-    return word_trace_rays(row * (count_trace_rays() / TRACE_RAY_ROWS) + i);
+    return word_trace_rays(row * count_trace_rays() + i);
 }
 
 fn trace_load_ray(i: u32) -> TraceRay {
@@ -31,7 +28,7 @@ fn trace_load_ray(i: u32) -> TraceRay {
 }
 
 fn trace_store_hit(i: u32, hit: TraceHit) {
-    let row = count_trace_hits() / TRACE_HIT_ROWS;
+    let row = count_trace_hits();
     put_trace_hits(i, bitcast<u32>(hit.t));
     put_trace_hits(row + i, bitcast<u32>(hit.u));
     put_trace_hits(2u * row + i, bitcast<u32>(hit.v));
@@ -59,6 +56,6 @@ fn trace_occluded_rays(@builtin(global_invocation_id) id: vec3u, @builtin(num_wo
     let i = trace_index(id, groups);
     if i < word_trace_count(0u) {
         let occluded = trace_occluded(trace_load_ray(i));
-        put_trace_hits(3u * (count_trace_hits() / TRACE_HIT_ROWS) + i, select(TRACE_NOTHING, 0u, occluded));
+        put_trace_hits(3u * count_trace_hits() + i, select(TRACE_NOTHING, 0u, occluded));
     }
 }

@@ -26,7 +26,7 @@ fn wgsl(stack: u32) -> String {
     ];
     let text = |path: &str| read(path).source;
     format!(
-        "const TRACE_STACK = {stack}u;\nfn word_trace_count(k: u32) -> u32 {{ return count_trace_rays() / 11u; }}\n{}{}{}",
+        "const TRACE_STACK = {stack}u;\nfn word_trace_count(k: u32) -> u32 {{ return count_trace_rays(); }}\n{}{}{}",
         device.needed(needed).text(),
         text("src/wgsl/traverse.wgsl"),
         text("src/wgsl/trace_batch.wgsl")
@@ -53,8 +53,8 @@ pub fn trace(device: &Device, tree: &WideTree, rays: &[Ray], entry: &str) -> Vec
     let sections = [
         section("bvh_nodes", "read4", 5, bytemuck::cast_slice(&tree.nodes)),
         section("bvh_triangles", "read4", 3, triangles),
-        section("trace_rays", "read", 1, &rows),
-        section("trace_hits", "write", 1, &hits),
+        section("trace_rays", "read", RAY_ROWS, &rows),
+        section("trace_hits", "write", HIT_ROWS, &hits),
     ];
     assert_eq!(rows.len(), RAY_ROWS * rays.len());
     let kernel = device.kernel(&wgsl(tree.stack()), &sections, entry);
