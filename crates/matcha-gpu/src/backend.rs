@@ -5,8 +5,9 @@ use crate::device::Device;
 use crate::error::GpuError;
 use crate::pipeline::Pipelines;
 use crate::wavefront::Wavefront;
+use matcha_cache::TableSize;
 use matcha_render::backend::{
-    Backend, Control, KernelTimes, RenderError, RenderOptions, Statistics,
+    Backend, CacheMode, Control, KernelTimes, RenderError, RenderOptions, Statistics,
 };
 use matcha_render::film::Film;
 use matcha_render::prepare::Prepared;
@@ -168,6 +169,14 @@ impl GpuBackend {
         prepared: &Arc<Prepared>,
         options: &RenderOptions,
     ) -> Result<GpuBackend, GpuError> {
+        if let CacheMode::Paper { cells, entries, .. } = options.cache {
+            let paper = TableSize::PAPER;
+            let asked = TableSize {
+                cells: cells.unwrap_or(paper.cells),
+                entries: entries.unwrap_or(paper.entries),
+            };
+            asked.check()?;
+        }
         let [width, height] = prepared.resolution();
         Ok(GpuBackend {
             wavefront: Wavefront::new(
