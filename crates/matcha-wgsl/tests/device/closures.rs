@@ -2,7 +2,7 @@
 
 use crate::adapter::{Device, Point};
 use crate::closure_probes::{probe_entry, probe_lobes, probe_row};
-use crate::support::{device, module};
+use crate::support::module;
 use crate::{COUNT, points};
 use matcha_render::closure::{LobeSet, code};
 use matcha_render::device::closure_rows::ClosureRows;
@@ -33,7 +33,7 @@ fn here(points: &[Point], kind: u32) -> Vec<Numbers> {
 fn there(device: &Device, points: &[Point], kind: u32) -> Vec<Numbers> {
     let probes = module("matcha-wgsl/tests/device/closure_probes.rs");
     let names = ["probe_lobes", "probe_row", "probe_entry"];
-    let needed = device(vec![probes]).needed(names);
+    let needed = super::support::device(vec![probes]).needed(names);
     let code = needed.source.text();
     let mut halves = [0, 4].map(|first| {
         let wgsl = format!(
