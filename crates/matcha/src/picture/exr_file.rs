@@ -58,14 +58,15 @@ fn push<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{Vec3, Vec4};
+    use glam::Vec3;
     use matcha_render::film::{PixelSums, Tile};
 
     #[test]
     fn what_is_written_is_read_again() {
         let mut film = Film::new(3, 2, 1.0);
         let sums = PixelSums {
-            radiance: Vec4::new(1.0, 20.0, -0.5, 1.0),
+            radiance: Vec3::new(1.0, 20.0, -0.5),
+            alpha: 1.0,
             albedo: Vec3::new(0.1, 0.2, 0.3),
             normal: Vec3::Z,
             depth: 7.0,
