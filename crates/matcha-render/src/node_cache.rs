@@ -30,13 +30,6 @@ struct Place {
     first_row: usize,
 }
 
-impl Place {
-    /// Its bits in the masks of a look-up.
-    fn mask(&self) -> u16 {
-        ((1 << self.kind.words()) - 1) << self.first_seed
-    }
-}
-
 impl CacheLayout {
     /// The layout of a material's program.
     pub fn new(material: u32, program: &Program) -> Self {
@@ -135,32 +128,12 @@ impl NodeCache for MaterialCache<'_> {
         let n = texels.len();
         let number = region.number as usize;
         found.fill(true);
-        let shared = self.keys.regions[number]
-            .iter()
-            .zip(&self.layout.regions[number]);
-        for (keys, cells) in shared {
+        let keys = &self.keys.regions[number];
+        for (keys, cells) in keys.iter().zip(&self.layout.regions[number]) {
             self.table.look_up_prepared(keys, &cells.seeds, self.found);
-            for value in &cells.values {
-                let words: [&[u32]; MOST_WORDS] = std::array::from_fn(|part| {
-                    let part = part.min(value.kind.words() - 1);
-                    self.found.words(value.first_seed + part)
-                });
-                for component in 0..value.kind.width() {
-                    let row = &mut out.row_mut(value.first_row + component)[..n];
-                    value.kind.decode_component(component, &words, row);
-                }
-                let mask = value.mask();
-                let mut hits = 0;
-                let masks = self.found.masks().iter();
-                for ((found, nodes), bits) in
-                    found.iter_mut().zip(&mut *self.found_nodes).zip(masks)
-                {
-                    let hit = bits & mask == mask;
-                    *found &= hit;
-                    *nodes += f32::from(u8::from(hit));
-                    hits += u64::from(hit);
-                }
-                self.counts.hits += hits;
+            for place in &cells.values {
+                place.decode(self.found, out, n);
+                self.counts.hits += place.note(self.found, found, self.found_nodes);
             }
         }
         self.counts.lookups += (n * region.values.len()) as u64;
@@ -168,36 +141,63 @@ impl NodeCache for MaterialCache<'_> {
 
     fn store(&mut self, region: &Region, _: &Texels, which: &[u32], values: &mut Rows) {
         let number = region.number as usize;
-        let shared = self.keys.regions[number]
-            .iter()
-            .zip(&self.layout.regions[number]);
-        for (keys, cells) in shared {
+        let keys = &self.keys.regions[number];
+        for (keys, cells) in keys.iter().zip(&self.layout.regions[number]) {
             for (k, &at) in which.iter().enumerate() {
-                for value in &cells.values {
-                    let rows = value.first_row..value.first_row + value.kind.width();
-                    let mut computed = [0.0; 4];
-                    for (number, row) in computed.iter_mut().zip(rows.clone()) {
-                        *number = values.row(row)[k];
-                    }
-                    let Some(words) = value.kind.encode(computed) else {
+                for place in &cells.values {
+                    let Some(words) = place.encode(values, k) else {
                         self.counts.unencodable += 1;
                         continue;
                     };
-                    for part in 0..value.kind.words() {
-                        let seed = cells.seeds[value.first_seed + part];
-                        self.table.insert_prepared(
-                            keys,
-                            at as usize,
-                            seed,
-                            words[part],
-                            self.counts,
-                        );
-                    }
-                    for (number, row) in value.kind.decode(words).into_iter().zip(rows) {
-                        values.row_mut(row)[k] = number;
+                    let seeds = &cells.seeds[place.first_seed..];
+                    for (&word, &seed) in words[..place.kind.words()].iter().zip(seeds) {
+                        let at = at as usize;
+                        self.table
+                            .insert_prepared(keys, at, seed, word, self.counts);
                     }
                 }
             }
         }
+    }
+}
+
+impl Place {
+    /// The value's rows of a region from the words that a look-up gave.
+    fn decode(&self, found: &Found, out: &mut Rows, n: usize) {
+        let words: [&[u32]; MOST_WORDS] = std::array::from_fn(|part| {
+            // Parts that the value does not have are not read.
+            found.words(self.first_seed + part.min(self.kind.words() - 1))
+        });
+        for component in 0..self.kind.width() {
+            let row = &mut out.row_mut(self.first_row + component)[..n];
+            self.kind.decode_component(component, &words, row);
+        }
+    }
+
+    /// Takes note of where the value was found; returns how often.
+    fn note(&self, found: &Found, all: &mut [bool], nodes: &mut [f32]) -> u64 {
+        let own = ((1 << self.kind.words()) - 1) << self.first_seed;
+        let mut hits = 0;
+        for ((all, nodes), bits) in all.iter_mut().zip(nodes).zip(found.masks()) {
+            let hit = bits & own == own;
+            *all &= hit;
+            *nodes += f32::from(u8::from(hit));
+            hits += u64::from(hit);
+        }
+        hits
+    }
+
+    /// The words of a value in column `k` of its region's rows, which is rounded as they are.
+    fn encode(&self, values: &mut Rows, k: usize) -> Option<[u32; MOST_WORDS]> {
+        let rows = self.first_row..self.first_row + self.kind.width();
+        let mut value = [0.0; 4];
+        for (number, row) in value.iter_mut().zip(rows.clone()) {
+            *number = values.get(row, k);
+        }
+        let words = self.kind.encode(value)?;
+        for (number, row) in self.kind.decode(words).into_iter().zip(rows) {
+            values.set(row, k, number);
+        }
+        Some(words)
     }
 }

@@ -109,6 +109,38 @@ fn threads_do_not_change_a_picture() {
     );
 }
 
+/// What is stored is a function of the key, and what is evaluated is what would be found: it
+/// does not matter which thread comes first.
+#[test]
+fn threads_do_not_change_a_cached_picture() {
+    let scene = || {
+        let mut scene = empty(2.0);
+        scene.world.color = Vec3::new(0.2, 0.3, 0.5);
+        let floor = add_material(&mut scene, cells(9.7));
+        let wall = add_material(&mut scene, cells(31.0));
+        add_square(&mut scene, Vec3::ZERO, 5.0, false, floor);
+        add_square(&mut scene, Vec3::new(0.2, 0.1, 0.5), 0.3, false, wall);
+        add_square(&mut scene, Vec3::new(0.0, 0.0, 3.0), 1.0, true, wall);
+        scene.settings.samples = 8;
+        scene.settings.resolution = [100, 70];
+        scene
+    };
+    let with = |threads, cells| RenderOptions {
+        threads: Some(threads),
+        cache: CacheMode::Paper {
+            cells: Some(cells),
+            entries: None,
+            level_offset: 0.0,
+        },
+        ..RenderOptions::default()
+    };
+    let one = render(scene(), &with(1, 100_000));
+    let off = render(scene(), &RenderOptions::default());
+    assert!(one != off, "nothing was cached");
+    assert!(one == render(scene(), &with(3, 100_000)), "threads matter");
+    assert!(one == render(scene(), &with(2, 7)), "a full table matters");
+}
+
 /// Constant networks have nothing to cache: the cache changes nothing at all.
 #[test]
 fn the_cache_leaves_constant_materials_alone() {

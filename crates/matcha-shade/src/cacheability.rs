@@ -421,7 +421,10 @@ mod tests {
             ..costs(0.1 * cost)
         };
         let chosen = choose(&network, &model);
-        let kinds: Vec<NodeKind> = chosen.iter().map(|c| network.graph.node(c.0).kind).collect();
+        let kinds: Vec<NodeKind> = chosen
+            .iter()
+            .map(|c| network.graph.node(c.0).kind)
+            .collect();
         assert_eq!(kinds, [NodeKind::Apply(OpCode::series_of_halves, 0)]);
         let lookup_ns = 0.4 * cost;
         assert_eq!(choose(&network, &CostModel { lookup_ns, ..model }), []);

@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Vec2, Vec3, Vec4};
 use matcha_render::scene::*;
-use matcha_shade::source::{Link, NodeTree, Socket, SourceNode};
+use matcha_shade::source::{Link, NodeTree, Property, Socket, SourceNode};
 use std::collections::BTreeMap;
 
 fn socket(identifier: &str, kind: &str, value: &[f32]) -> Socket {
@@ -64,6 +64,28 @@ pub fn diffuse(albedo: [f32; 3]) -> NodeTree {
         Some(socket("BSDF", "SHADER", &[])),
     );
     tree(shader, "ShaderNodeOutputMaterial")
+}
+
+/// A Lambertian material whose colour is cellular noise over the first UV set, costly enough
+/// to be cached.
+pub fn cells(scale: f32) -> NodeTree {
+    let inputs = vec![
+        socket("Vector", "VECTOR", &[0.0; 3]),
+        socket("Scale", "VALUE", &[scale]),
+    ];
+    let color = socket("Color", "RGBA", &[0.0; 4]);
+    let mut noise = node("ShaderNodeTexVoronoi", inputs, Some(color));
+    let smooth = Property::Text("SMOOTH_F1".into());
+    noise.props.insert("feature".into(), smooth);
+    let coordinate = socket("UV", "VECTOR", &[0.0; 3]);
+    let uv = node("ShaderNodeUVMap", Vec::new(), Some(coordinate));
+    let mut whole = diffuse([1.0; 3]);
+    whole.nodes.extend([noise, uv]);
+    let link = |from, to| Link { from, to };
+    whole
+        .links
+        .extend([link([3, 0], [2, 0]), link([2, 0], [0, 0])]);
+    whole
 }
 
 /// An emitting material's tree.
