@@ -170,9 +170,7 @@ pub fn scene() -> Scene {
 pub fn all_kinds() -> Vec<Input> {
     use InputKind::*;
     let named = [Uv, Tangent, TangentSign, DpDu, DpDv, InputKind::Attribute];
-    let names = named
-        .iter()
-        .flat_map(|kind| [0, 1, 2, 3, 99].map(|name| kind(name)));
+    let names = named.iter().flat_map(|kind| [0, 1, 2, 3, 99].map(kind));
     let plain = [
         Position,
         Normal,
