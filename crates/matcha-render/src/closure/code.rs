@@ -33,6 +33,21 @@ pub const fn code(kind: ClosureKind) -> u32 {
     }
 }
 
+/// Lobes that a closure of a kind makes at most. A device's set of lobes need not be larger
+/// than what the closures of the largest program make together.
+pub const fn most_lobes(kind: ClosureKind) -> u32 {
+    match kind {
+        ClosureKind::Emission
+        | ClosureKind::Background
+        | ClosureKind::Transparent
+        | ClosureKind::Holdout
+        | ClosureKind::ShadingNormal => 0,
+        // Sheen, coat, metal, glass, specular layer, subsurface, diffuse.
+        ClosureKind::Principled(_) => 7,
+        _ => 1,
+    }
+}
+
 const fn distribution(d: Distribution) -> u32 {
     let model = match d {
         Distribution::Ggx => CLOSURE_MODEL_GGX,
@@ -45,7 +60,8 @@ const fn distribution(d: Distribution) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::code;
+    use super::{code, most_lobes};
+    use crate::closure::fixtures::{Random, frame, lobes};
     use crate::device::closure_kind::*;
     use matcha_shade::closure::{ClosureKind, Distribution, SheenModel};
 
@@ -82,6 +98,21 @@ mod tests {
         codes.sort_unstable();
         codes.dedup();
         assert_eq!(codes.len(), kinds().len());
+    }
+
+    #[test]
+    fn no_kind_makes_more_lobes_than_stated() {
+        let mut random = Random(4);
+        let mut most = [0; 256];
+        for kind in kinds() {
+            for _ in 0..300 {
+                let row: Vec<f32> = (0..kind.rows()).map(|_| random.f1()).collect();
+                let count = lobes(kind, &row, &frame(0.7)).lobes().len() as u32;
+                let seen = &mut most[code(kind) as usize];
+                *seen = count.max(*seen);
+            }
+            assert_eq!(most[code(kind) as usize], most_lobes(kind), "{kind:?}");
+        }
     }
 
     /// First row of a parameter, None where the kind does not have it.

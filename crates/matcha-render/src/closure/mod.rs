@@ -22,6 +22,6 @@ mod tests;
 
 pub use crate::device::closure_set::LobeSet;
 pub use crate::device::lobe::ClosureFrame as Frame;
-pub use code::code;
+pub use code::{code, most_lobes};
 pub use prepare::{ClosureContext, prepare_closure};
 pub use set::{Evaluated, Scattered, flags};

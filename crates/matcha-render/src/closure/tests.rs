@@ -3,7 +3,9 @@
 use super::chi_squared::chi_squared;
 use super::fixtures::{Random, direction, frame, lobes, rows};
 use super::flags;
-use super::{ClosureContext, Frame, LobeSet, prepare_closure};
+use super::{ClosureContext, Frame, LobeSet, code, prepare_closure};
+use crate::device::closure_glow::closure_glow;
+use crate::device::closure_rows::ClosureRows;
 use glam::{DVec3, Vec3};
 use matcha_shade::closure::{ClosureKind, Distribution, PRINCIPLED, SheenModel};
 use std::f32::consts::TAU;
@@ -360,8 +362,41 @@ fn transparency_emission_and_holdout_are_apart() {
 }
 
 #[test]
+fn glow_is_what_closures_are_without_lobes() {
+    let mut random = Random(11);
+    let mut kinds: Vec<_> = cases().into_iter().map(|(kind, _)| kind).collect();
+    kinds.extend([
+        ClosureKind::Emission,
+        ClosureKind::Background,
+        ClosureKind::Transparent,
+        ClosureKind::Holdout,
+        ClosureKind::Subsurface,
+        ClosureKind::ShadingNormal,
+    ]);
+    let context = ClosureContext {
+        scatter: false,
+        ..ClosureContext::default()
+    };
+    let mut set = LobeSet::new();
+    for kind in kinds {
+        for _ in 0..100 {
+            let numbers = (0..kind.rows()).map(|_| 1.3 * random.f1() - 0.1);
+            let row: Vec<f32> = numbers.collect();
+            let f = frame(0.1 + 0.9 * random.f1());
+            set.begin(&f);
+            prepare_closure(kind, &row, &context, &mut set);
+            let glow = closure_glow(code(kind), ClosureRows { row: &row }, f);
+            assert_eq!(glow.emission, set.emission, "{kind:?} {row:?}");
+            assert_eq!(glow.transparency, set.transparency, "{kind:?} {row:?}");
+            assert_eq!(glow.holdout, set.holdout, "{kind:?} {row:?}");
+            assert!(set.lobes().is_empty());
+        }
+    }
+}
+
+#[test]
 fn principled_reads_the_shared_layout() {
-    // The reader takes parameters one after the other: this order, or it is wrong.
+    // Device code numbers the rows by this order.
     let names: Vec<_> = PRINCIPLED.iter().map(|p| p.name).collect();
     let expected = "base_color metallic roughness ior alpha normal diffuse_roughness \
         subsurface_weight subsurface_radius subsurface_scale subsurface_ior \

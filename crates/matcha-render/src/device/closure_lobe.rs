@@ -6,7 +6,7 @@ use matcha_shade::device::math::{
 };
 
 use super::closure_albedo::{closure_energy, closure_estimate};
-use super::closure_rows::{closure_finite, closure_unit};
+use super::closure_rows::{ClosureRows, closure_finite, closure_triple, closure_unit};
 use super::closure_set::{CLOSURE_WEIGHT_CUTOFF, LobeSet, closure_mean, closure_set_push};
 use super::closure_tables::{ClosureTables, closure_sheen_fit};
 use super::fresnel::{FRESNEL_NONE, FRESNEL_REMAPPED};
@@ -42,6 +42,12 @@ pub struct ClosureMultiple {
     pub both: bool,
     /// Colour of each further bounce.
     pub tint: Vec3,
+}
+
+/// A parameter's normal, unit; the shading normal where it is zero or not a number.
+#[inline]
+pub fn closure_normal(rows: ClosureRows, i: u32, shading_normal: Vec3) -> Vec3 {
+    closure_unit(closure_triple(rows, i), shading_normal)
 }
 
 /// The normal that glossy lobes use for a parameter's normal.

@@ -17,10 +17,10 @@ use super::closure_kind::{
 use super::closure_lobe::{
     ClosureContext, ClosureMultiple, closure_across, closure_add_diffuse, closure_add_lambert,
     closure_add_sheen, closure_add_velvet, closure_counts, closure_facing_ior, closure_glass_sides,
-    closure_keep, closure_keep_fresnel, closure_lobe, closure_turn, closure_valid,
+    closure_keep, closure_keep_fresnel, closure_lobe, closure_normal, closure_turn, closure_valid,
 };
 use super::closure_principled::closure_add_principled;
-use super::closure_rows::{ClosureRows, closure_number, closure_triple, closure_unit};
+use super::closure_rows::{ClosureRows, closure_number, closure_triple};
 use super::closure_set::{LobeSet, closure_mean, closure_set_add_transparency};
 use super::closure_tables::ClosureTables;
 use super::fresnel::fresnel_f0;
@@ -56,13 +56,7 @@ pub fn closure_prepare(
     }
 }
 
-/// A parameter's normal, unit; the shading normal where it is zero or not a number.
-#[inline]
-pub fn closure_normal(rows: ClosureRows, i: u32, shading_normal: Vec3) -> Vec3 {
-    closure_unit(closure_triple(rows, i), shading_normal)
-}
-
-/// Likewise, turned as glossy lobes need it.
+/// A parameter's normal, turned as glossy lobes need it.
 #[inline]
 pub fn closure_valid_normal(rows: ClosureRows, i: u32, set: &LobeSet) -> Vec3 {
     closure_valid(set.frame, closure_normal(rows, i, set.frame.n))

@@ -6,30 +6,26 @@
 //! Parameters are read where they are needed: registers are dearer than rows.
 
 use glam::Vec3;
-use matcha_shade::device::math::{
-    dot, max, max3, min, min3, pow_positive, saturate, splat3, sqrt, vec3,
-};
+use matcha_shade::device::math::{max, max3, min, min3, saturate, splat3, sqrt, vec3};
 
 use super::closure_albedo::closure_mean_remapped;
+use super::closure_glow::{principled_coat_ior, principled_emitted, principled_tinted};
 use super::closure_kind::{
     CLOSURE_ROW_WEIGHT, PRINCIPLED_ROW_ALPHA, PRINCIPLED_ROW_ANISOTROPIC,
-    PRINCIPLED_ROW_ANISOTROPIC_ROTATION, PRINCIPLED_ROW_BASE_COLOR, PRINCIPLED_ROW_COAT_IOR,
-    PRINCIPLED_ROW_COAT_NORMAL, PRINCIPLED_ROW_COAT_ROUGHNESS, PRINCIPLED_ROW_COAT_TINT,
-    PRINCIPLED_ROW_COAT_WEIGHT, PRINCIPLED_ROW_DIFFUSE_ROUGHNESS, PRINCIPLED_ROW_EMISSION_COLOR,
-    PRINCIPLED_ROW_EMISSION_STRENGTH, PRINCIPLED_ROW_IOR, PRINCIPLED_ROW_METALLIC,
-    PRINCIPLED_ROW_NORMAL, PRINCIPLED_ROW_ROUGHNESS, PRINCIPLED_ROW_SHEEN_ROUGHNESS,
-    PRINCIPLED_ROW_SHEEN_TINT, PRINCIPLED_ROW_SHEEN_WEIGHT, PRINCIPLED_ROW_SPECULAR_IOR_LEVEL,
-    PRINCIPLED_ROW_SPECULAR_TINT, PRINCIPLED_ROW_SUBSURFACE_WEIGHT, PRINCIPLED_ROW_TANGENT,
-    PRINCIPLED_ROW_TRANSMISSION_WEIGHT,
+    PRINCIPLED_ROW_ANISOTROPIC_ROTATION, PRINCIPLED_ROW_BASE_COLOR, PRINCIPLED_ROW_COAT_NORMAL,
+    PRINCIPLED_ROW_COAT_ROUGHNESS, PRINCIPLED_ROW_COAT_WEIGHT, PRINCIPLED_ROW_DIFFUSE_ROUGHNESS,
+    PRINCIPLED_ROW_IOR, PRINCIPLED_ROW_METALLIC, PRINCIPLED_ROW_NORMAL, PRINCIPLED_ROW_ROUGHNESS,
+    PRINCIPLED_ROW_SHEEN_ROUGHNESS, PRINCIPLED_ROW_SHEEN_TINT, PRINCIPLED_ROW_SHEEN_WEIGHT,
+    PRINCIPLED_ROW_SPECULAR_IOR_LEVEL, PRINCIPLED_ROW_SPECULAR_TINT,
+    PRINCIPLED_ROW_SUBSURFACE_WEIGHT, PRINCIPLED_ROW_TANGENT, PRINCIPLED_ROW_TRANSMISSION_WEIGHT,
 };
 use super::closure_lobe::{
     ClosureContext, ClosureMultiple, closure_across, closure_add_diffuse, closure_add_lambert,
     closure_add_sheen, closure_counts, closure_glass_sides, closure_keep_fresnel, closure_lobe,
-    closure_turn, closure_valid,
+    closure_normal, closure_turn, closure_valid,
 };
-use super::closure_prepare::closure_normal;
 use super::closure_rows::{
-    ClosureRows, closure_finite3, closure_number, closure_triple, closure_unit,
+    ClosureRows, closure_color, closure_number, closure_share, closure_triple, closure_unit,
 };
 use super::closure_set::{
     CLOSURE_WEIGHT_CUTOFF, LobeSet, closure_black, closure_set_add_transparency,
@@ -40,18 +36,6 @@ use super::fresnel::{
     fresnel_ior_of_f0, fresnel_mean_dielectric, fresnel_mean_f82,
 };
 use super::lobe::{ClosureLobe, LOBE_DIFFUSE, LOBE_GGX};
-
-/// Row `i`, at least 0 and at most 1.
-#[inline(always)]
-fn principled_share(rows: ClosureRows, i: u32) -> f32 {
-    saturate(closure_number(rows, i))
-}
-
-/// Rows from `i` on as a colour, at least 0.
-#[inline(always)]
-fn principled_color(rows: ClosureRows, i: u32) -> Vec3 {
-    max3(closure_triple(rows, i), Vec3::ZERO)
-}
 
 /// The index of refraction.
 #[inline(always)]
@@ -88,18 +72,14 @@ pub fn closure_add_principled(
     set: &mut LobeSet,
 ) {
     let mut weight = closure_triple(rows, CLOSURE_ROW_WEIGHT);
-    let alpha = principled_share(rows, PRINCIPLED_ROW_ALPHA);
+    let alpha = closure_share(rows, PRINCIPLED_ROW_ALPHA);
     if alpha < 1.0 {
         closure_set_add_transparency(set, weight * (1.0 - alpha));
         weight *= alpha;
     }
     weight = principled_sheen(rows, tables, context, weight, set);
     weight = principled_coat(rows, tables, context, weight, set);
-    let strength = closure_number(rows, PRINCIPLED_ROW_EMISSION_STRENGTH);
-    let emitted = closure_triple(rows, PRINCIPLED_ROW_EMISSION_COLOR) * strength * weight;
-    if closure_finite3(emitted) {
-        set.emission += emitted;
-    }
+    set.emission += principled_emitted(rows, weight);
     if context.scatter {
         principled_base(rows, tables, context, multiple, weight, set);
     }
@@ -118,25 +98,25 @@ fn principled_base(
     let mut weight = arriving;
     let bent = closure_normal(rows, PRINCIPLED_ROW_NORMAL, set.frame.n);
     let normal = closure_valid(set.frame, bent);
-    let metallic = principled_share(rows, PRINCIPLED_ROW_METALLIC);
+    let metallic = closure_share(rows, PRINCIPLED_ROW_METALLIC);
     if metallic > CLOSURE_WEIGHT_CUTOFF {
         let share = weight * metallic;
         principled_metal(rows, tables, context, multiple, share, normal, set);
         weight *= 1.0 - metallic;
     }
-    let transmission = principled_share(rows, PRINCIPLED_ROW_TRANSMISSION_WEIGHT);
+    let transmission = closure_share(rows, PRINCIPLED_ROW_TRANSMISSION_WEIGHT);
     if transmission > CLOSURE_WEIGHT_CUTOFF {
         let share = weight * transmission;
         principled_transmission(rows, tables, context, multiple, share, normal, set);
         weight *= 1.0 - transmission;
     }
     weight = principled_specular(rows, tables, context, multiple, weight, normal, set);
-    let base_color = principled_color(rows, PRINCIPLED_ROW_BASE_COLOR);
-    let subsurface = principled_share(rows, PRINCIPLED_ROW_SUBSURFACE_WEIGHT);
+    let base_color = closure_color(rows, PRINCIPLED_ROW_BASE_COLOR);
+    let subsurface = closure_share(rows, PRINCIPLED_ROW_SUBSURFACE_WEIGHT);
     let inside = min3(base_color, splat3(1.0)) * weight * subsurface;
     closure_add_lambert(set, context, LOBE_DIFFUSE, inside, normal);
     let rest = base_color * weight * (1.0 - subsurface);
-    let set_roughness = principled_share(rows, PRINCIPLED_ROW_DIFFUSE_ROUGHNESS);
+    let set_roughness = closure_share(rows, PRINCIPLED_ROW_DIFFUSE_ROUGHNESS);
     let rough = if set_roughness < CLOSURE_WEIGHT_CUTOFF {
         0.0
     } else {
@@ -157,12 +137,12 @@ fn principled_sheen(
     let mut left = weight;
     let sheen = max(closure_number(rows, PRINCIPLED_ROW_SHEEN_WEIGHT), 0.0);
     if sheen > CLOSURE_WEIGHT_CUTOFF {
-        let coat = principled_share(rows, PRINCIPLED_ROW_COAT_WEIGHT);
+        let coat = closure_share(rows, PRINCIPLED_ROW_COAT_WEIGHT);
         let base = closure_normal(rows, PRINCIPLED_ROW_NORMAL, set.frame.n);
         let top = closure_normal(rows, PRINCIPLED_ROW_COAT_NORMAL, set.frame.n);
         let normal = closure_unit(base * (1.0 - coat) + top * coat, set.frame.n);
-        let tinted = principled_color(rows, PRINCIPLED_ROW_SHEEN_TINT) * weight * sheen;
-        let roughness = principled_share(rows, PRINCIPLED_ROW_SHEEN_ROUGHNESS);
+        let tinted = closure_color(rows, PRINCIPLED_ROW_SHEEN_TINT) * weight * sheen;
+        let roughness = closure_share(rows, PRINCIPLED_ROW_SHEEN_ROUGHNESS);
         let reflected = closure_add_sheen(set, tables, context, tinted, roughness, normal);
         if !closure_black(reflected) {
             left = principled_under(weight, reflected);
@@ -183,12 +163,12 @@ fn principled_coat(
     let mut left = weight;
     let coat = max(closure_number(rows, PRINCIPLED_ROW_COAT_WEIGHT), 0.0);
     if coat > CLOSURE_WEIGHT_CUTOFF {
-        let ior = max(closure_number(rows, PRINCIPLED_ROW_COAT_IOR), 1.0);
+        let ior = principled_coat_ior(rows);
         let bent = closure_normal(rows, PRINCIPLED_ROW_COAT_NORMAL, set.frame.n);
         let normal = closure_valid(set.frame, bent);
         if context.reflective_caustics && closure_counts(context, weight * coat) {
             let mut lobe = closure_lobe(set.frame, LOBE_GGX, weight * coat, normal);
-            let roughness = principled_share(rows, PRINCIPLED_ROW_COAT_ROUGHNESS);
+            let roughness = closure_share(rows, PRINCIPLED_ROW_COAT_ROUGHNESS);
             lobe.ior = ior;
             lobe.fresnel = FRESNEL_DIELECTRIC;
             lobe.alpha_x = roughness * roughness;
@@ -201,34 +181,16 @@ fn principled_coat(
             let reflected = closure_keep_fresnel(set, tables, context, lobe, bounces);
             left = principled_under(weight, reflected);
         }
-        let tint = principled_color(rows, PRINCIPLED_ROW_COAT_TINT);
-        if tint.x != 1.0 || tint.y != 1.0 || tint.z != 1.0 {
-            let cosine = dot(set.frame.wo, normal);
-            let absorbed = principled_absorbed(tint, ior, cosine);
-            left *= splat3(1.0) + (absorbed - splat3(1.0)) * coat;
-        }
+        left = principled_tinted(rows, set.frame, normal, left);
     }
     left
-}
-
-/// What a coat lets through under an angle: its tint is that of one thickness, and light
-/// crosses more of it at an angle (Beer).
-#[inline]
-fn principled_absorbed(tint: Vec3, ior: f32, cosine: f32) -> Vec3 {
-    let inside = sqrt(max(1.0 - (1.0 - cosine * cosine) / (ior * ior), 1.0e-6));
-    let thickness = 1.0 / inside;
-    vec3(
-        pow_positive(tint.x, thickness),
-        pow_positive(tint.y, thickness),
-        pow_positive(tint.z, thickness),
-    )
 }
 
 /// Roughness and tangent of the metal and of the specular layer.
 #[inline]
 fn principled_shape(lobe: &mut ClosureLobe, rows: ClosureRows, shading_normal: Vec3) {
-    let roughness = principled_share(rows, PRINCIPLED_ROW_ROUGHNESS);
-    let anisotropic = principled_share(rows, PRINCIPLED_ROW_ANISOTROPIC);
+    let roughness = closure_share(rows, PRINCIPLED_ROW_ROUGHNESS);
+    let anisotropic = closure_share(rows, PRINCIPLED_ROW_ANISOTROPIC);
     let alpha = roughness * roughness;
     let aspect = sqrt(1.0 - anisotropic * 0.9);
     lobe.alpha_x = min(alpha / aspect, 1.0);
@@ -252,8 +214,8 @@ fn principled_metal(
     if context.reflective_caustics && closure_counts(context, weight) {
         let mut lobe = closure_lobe(set.frame, LOBE_GGX, weight, normal);
         principled_shape(&mut lobe, rows, set.frame.n);
-        let edge = principled_color(rows, PRINCIPLED_ROW_SPECULAR_TINT);
-        let base_color = principled_color(rows, PRINCIPLED_ROW_BASE_COLOR);
+        let edge = closure_color(rows, PRINCIPLED_ROW_SPECULAR_TINT);
+        let base_color = closure_color(rows, PRINCIPLED_ROW_BASE_COLOR);
         lobe.fresnel = FRESNEL_F82;
         lobe.f0 = min3(base_color, splat3(1.0));
         lobe.tint = fresnel_f82_coefficient(lobe.f0, min3(edge, splat3(1.0)));
@@ -279,15 +241,15 @@ fn principled_transmission(
     let wanted = context.reflective_caustics || context.refractive_caustics;
     if wanted && closure_counts(context, weight) {
         let mut lobe = closure_lobe(set.frame, LOBE_GGX, weight, normal);
-        let roughness = principled_share(rows, PRINCIPLED_ROW_ROUGHNESS);
+        let roughness = closure_share(rows, PRINCIPLED_ROW_ROUGHNESS);
         lobe.alpha_x = roughness * roughness;
         lobe.alpha_y = lobe.alpha_x;
-        let base_color = principled_color(rows, PRINCIPLED_ROW_BASE_COLOR);
+        let base_color = closure_color(rows, PRINCIPLED_ROW_BASE_COLOR);
         let clamped = min3(base_color, splat3(1.0));
         // Light passes the surface twice, so that each pass takes the root.
         let color = vec3(sqrt(clamped.x), sqrt(clamped.y), sqrt(clamped.z));
         let ior = principled_ior(rows);
-        let f0 = principled_color(rows, PRINCIPLED_ROW_SPECULAR_TINT) * fresnel_f0(ior);
+        let f0 = closure_color(rows, PRINCIPLED_ROW_SPECULAR_TINT) * fresnel_f0(ior);
         let backfacing = set.frame.backfacing;
         closure_glass_sides(&mut lobe, backfacing, context, ior, f0, color);
         let tint = if closure_black(lobe.tint) {
@@ -339,7 +301,7 @@ fn principled_specular(
         if level != 0.5 {
             f0 *= 2.0 * level;
         }
-        let tint = principled_color(rows, PRINCIPLED_ROW_SPECULAR_TINT);
+        let tint = closure_color(rows, PRINCIPLED_ROW_SPECULAR_TINT);
         lobe.fresnel = FRESNEL_REMAPPED;
         lobe.ior = ior;
         lobe.f0 = min3(max3(tint * f0, Vec3::ZERO), splat3(1.0));

@@ -1,7 +1,7 @@
 //! A closure's weight and parameters, as a program returns them for one point.
 
 use glam::Vec3;
-use matcha_shade::device::math::{MAX, bits_of, length, vec3};
+use matcha_shade::device::math::{MAX, bits_of, length, max3, saturate, vec3};
 
 use super::closure_kind::{
     CLOSURE_BACKGROUND, CLOSURE_EMISSION, CLOSURE_ROW_WEIGHT, NORMAL_ROW_NORMAL,
@@ -42,6 +42,18 @@ pub fn closure_triple(rows: ClosureRows, i: u32) -> Vec3 {
         closure_number(rows, i + 1),
         closure_number(rows, i + 2),
     )
+}
+
+/// Row `i`, at least 0 and at most 1.
+#[inline(always)]
+pub fn closure_share(rows: ClosureRows, i: u32) -> f32 {
+    saturate(closure_number(rows, i))
+}
+
+/// Three rows from `i` on as a colour, at least 0.
+#[inline(always)]
+pub fn closure_color(rows: ClosureRows, i: u32) -> Vec3 {
+    max3(closure_triple(rows, i), Vec3::ZERO)
 }
 
 /// `v` as a unit vector; `otherwise` where it has no direction.

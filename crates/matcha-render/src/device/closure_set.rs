@@ -144,11 +144,17 @@ pub fn closure_set_push(set: &mut LobeSet, lobe: ClosureLobe, albedo: Vec3) {
     }
 }
 
+/// Whether a transparency is large enough to count.
+#[inline(always)]
+pub fn closure_passes(weight: Vec3) -> bool {
+    abs(closure_mean(weight)) >= CLOSURE_WEIGHT_CUTOFF
+}
+
 /// Lets light straight through.
 #[inline]
 pub fn closure_set_add_transparency(set: &mut LobeSet, weight: Vec3) {
-    let share = abs(closure_mean(weight));
-    if share >= CLOSURE_WEIGHT_CUTOFF {
+    if closure_passes(weight) {
+        let share = abs(closure_mean(weight));
         set.transparency += weight;
         set.through += share;
         set.sum += share;

@@ -1,6 +1,7 @@
 //! Device code: plain functions that a build-time translator can turn into WGSL.
 pub mod camera;
 pub mod closure_albedo;
+pub mod closure_glow;
 pub mod closure_kind;
 pub mod closure_lobe;
 pub mod closure_prepare;

@@ -5,6 +5,7 @@ use super::path::Path;
 use super::worker::SurfaceTask;
 use crate::accel::Hit;
 use crate::closure::{self, ClosureContext, LobeSet, code, prepare_closure};
+use crate::device::closure_glow::{ClosureGlow, closure_glow};
 use crate::device::closure_rows::{ClosureRows, closure_radiance, closure_shading_normal};
 use crate::device::path_meet::path_shadow_info;
 use crate::node_cache::{GroupKeys, MaterialCache};
@@ -32,7 +33,6 @@ pub struct Networks {
     background: Rows,
     found: Vec<f32>,
     colors: Vec<Vec3>,
-    lobes: LobeSet,
     looked_up: Found,
     /// What the cache did for this thread.
     pub counts: CacheCounts,
@@ -83,7 +83,6 @@ impl Networks {
             background: Rows::default(),
             found: Vec::new(),
             colors: Vec::new(),
-            lobes: LobeSet::new(),
             looked_up: Found::default(),
             counts: CacheCounts::default(),
             time: Duration::ZERO,
@@ -255,7 +254,7 @@ impl Networks {
         points: impl Iterator<Item = (Hit, Vec3)>,
     ) {
         self.shadow_points(frame, material, points);
-        self.collect(frame, |lobes| lobes.emission);
+        self.collect(frame, |glow| glow.emission);
     }
 
     /// Emission of point `i`.
@@ -271,7 +270,7 @@ impl Networks {
         points: impl Iterator<Item = (Hit, Vec3)>,
     ) {
         self.shadow_points(frame, material, points);
-        self.collect(frame, |lobes| lobes.transparency);
+        self.collect(frame, |glow| glow.transparency);
     }
 
     /// Transparency of point `i`.
@@ -294,18 +293,19 @@ impl Networks {
         self.evaluate(frame);
     }
 
-    fn collect(&mut self, frame: &Frame, read: impl Fn(&LobeSet) -> Vec3) {
-        let context = ClosureContext {
-            scatter: false,
-            ..ClosureContext::default()
-        };
-        let mut lobes = std::mem::take(&mut self.lobes);
+    /// Keeps what the closures of each point let `read` see, summed.
+    fn collect(&mut self, frame: &Frame, read: impl Fn(&ClosureGlow) -> Vec3) {
+        let program = frame.program(self.group.material);
         self.colors.clear();
-        for i in 0..self.group.points.len() {
-            self.closures(frame, i, &context, &mut lobes);
-            self.colors.push(read(&lobes));
+        for (i, point) in self.group.points.iter().enumerate() {
+            let geometry = closure_frame(program, &self.outputs, i, point);
+            let mut buffer = [0.0; MOST_ROWS];
+            let glow = |c: &ClosureOutput| {
+                let rows = rows(c, &self.outputs, i, &mut buffer);
+                read(&closure_glow(code(c.kind), rows, geometry))
+            };
+            self.colors.push(program.closures.iter().map(glow).sum());
         }
-        self.lobes = lobes;
     }
 }
 
@@ -335,6 +335,22 @@ fn shading_normal(program: &Program, outputs: &Rows, i: usize, normal: Vec3) -> 
     closure_shading_normal(rows(output, outputs, i, &mut buffer), normal)
 }
 
+/// The geometry of point `i` as closures see it.
+fn closure_frame(
+    program: &Program,
+    outputs: &Rows,
+    i: usize,
+    point: &SurfacePoint,
+) -> closure::Frame {
+    closure::Frame {
+        n: shading_normal(program, outputs, i, point.normal),
+        ng: point.true_normal,
+        wo: point.outgoing,
+        backfacing: point.backfacing != 0,
+        bump_correction: true,
+    }
+}
+
 /// Makes the lobes of point `i` from its output rows.
 fn build_lobes(
     program: &Program,
@@ -344,13 +360,7 @@ fn build_lobes(
     context: &ClosureContext,
     lobes: &mut LobeSet,
 ) {
-    lobes.begin(&closure::Frame {
-        n: shading_normal(program, outputs, i, point.normal),
-        ng: point.true_normal,
-        wo: point.outgoing,
-        backfacing: point.backfacing != 0,
-        bump_correction: true,
-    });
+    lobes.begin(&closure_frame(program, outputs, i, point));
     let mut buffer = [0.0; MOST_ROWS];
     for output in &program.closures {
         let rows = rows(output, outputs, i, &mut buffer);
