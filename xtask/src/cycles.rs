@@ -1,6 +1,6 @@
 //! `cargo xtask cycles`: Matcha and Cycles in turn on the same machine.
 
-use crate::reference::{build, matcha};
+use crate::matcha;
 use anyhow::{Context, Result, ensure};
 use std::path::PathBuf;
 use std::process::Command;
@@ -49,7 +49,7 @@ fn seconds_of_matcha(arguments: &Arguments) -> Result<f64> {
     let folder = std::env::temp_dir().join(format!("matcha-cycles-{}", std::process::id()));
     std::fs::create_dir_all(&folder)?;
     let stats = folder.join("stats.json");
-    let status = matcha()
+    let status = matcha::command()
         .arg("render")
         .arg(&arguments.scene)
         .arg("-o")
@@ -74,7 +74,7 @@ fn seconds_of_matcha(arguments: &Arguments) -> Result<f64> {
 }
 
 pub fn run(arguments: &Arguments) -> Result<()> {
-    build()?;
+    matcha::build()?;
     let mut ratios = Vec::new();
     for run in 0..arguments.runs {
         let (matcha, cycles) = if run % 2 == 0 {

@@ -1,9 +1,9 @@
 //! `cargo xtask reference`: a Matcha picture against a stored Cycles picture.
 
+use crate::matcha;
 use crate::picture::Picture;
 use anyhow::{Context, Result, ensure};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -25,27 +25,12 @@ pub struct Arguments {
     more: Vec<String>,
 }
 
-/// The release binary, built by `cargo build --release`.
-pub fn matcha() -> Command {
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or("target".into(), PathBuf::from);
-    Command::new(target.join("release/matcha"))
-}
-
-/// Builds the release binary.
-pub fn build() -> Result<()> {
-    let status = Command::new("cargo")
-        .args(["build", "--release", "-p", "matcha"])
-        .status()?;
-    ensure!(status.success(), "matcha does not build");
-    Ok(())
-}
-
 fn render(arguments: &Arguments, reference: &Picture) -> Result<()> {
-    build()?;
+    matcha::build()?;
     if let Some(folder) = arguments.output.parent() {
         std::fs::create_dir_all(folder)?;
     }
-    let status = matcha()
+    let status = matcha::command()
         .arg("render")
         .arg(&arguments.scene)
         .arg("-o")

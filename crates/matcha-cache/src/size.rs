@@ -30,7 +30,10 @@ impl TableSize {
     }
 
     /// Refuses sizes that no table can have, whatever the memory.
-    pub(crate) fn check(self) -> Result<(), CacheError> {
+    ///
+    /// # Errors
+    /// If it holds nothing, or more than a hash can tell apart.
+    pub fn check(self) -> Result<(), CacheError> {
         let TableSize { cells, entries } = self;
         if cells == 0 || entries == 0 {
             return Err(CacheError::Empty { cells, entries });

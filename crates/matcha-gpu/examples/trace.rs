@@ -2,13 +2,14 @@
 //!
 //!     cargo run --release -p matcha-gpu --example trace -- SCENE [RAYS]
 
-#[path = "../tests/trace/adapter.rs"]
-mod adapter;
 #[path = "../tests/trace/comparison.rs"]
 mod comparison;
 
+use comparison::Tracer;
 use glam::{Vec3, vec3};
+use matcha_gpu::device::Device;
 use matcha_gpu::trace::WideTree;
+use matcha_gpu::{GpuError, testing};
 use matcha_import::{LoadOptions, load};
 use matcha_render::accel::{Accel, Ray};
 use matcha_render::scene::Scene;
@@ -90,28 +91,40 @@ fn main() {
         start.elapsed().as_secs_f32()
     );
     let rays = rays(&scene, &accel, count);
-    let Some(device) = adapter::Device::find() else {
+    let Some(device) = testing::device() else {
         return;
     };
+    if let Err(error) = report(&device, &mut accel, &tree, &rays) {
+        eprintln!("{error}");
+    }
+}
+
+fn report(
+    device: &Device,
+    accel: &mut Accel,
+    tree: &WideTree,
+    rays: &[Ray],
+) -> Result<(), GpuError> {
+    let tracer = Tracer::new(device, tree, rays)?;
     for portable in [false, true] {
         if portable {
             accel.use_portable_kernel();
         }
         let start = Instant::now();
-        for ray in &rays {
+        for ray in rays {
             std::hint::black_box(accel.closest(ray));
         }
         let rate = rays.len() as f64 / start.elapsed().as_secs_f64();
-        let difference = comparison::compare(&device, &accel, &tree, &rays);
+        let difference = comparison::compare(&tracer, accel, rays)?;
         println!(
             "portable {portable}: {rate:.0} rays a second in one thread; {} rays, {difference:?}",
             rays.len()
         );
     }
     for entry in ["trace_closest_rays", "trace_occluded_rays"] {
-        let start = Instant::now();
-        comparison::trace(&device, &tree, &rays, entry);
-        let rate = rays.len() as f64 / start.elapsed().as_secs_f64();
-        println!("{entry}: {rate:.0} rays a second, copies and pipeline included");
+        let (_, time) = tracer.trace(entry)?;
+        let rate = rays.len() as f64 / time.as_secs_f64();
+        println!("{entry}: {rate:.0} rays a second on the device");
     }
+    Ok(())
 }

@@ -75,6 +75,11 @@ impl Device {
         })
     }
 
+    /// Whether kernels may use 64-bit atomic operations.
+    pub fn has_atomics_64(&self) -> bool {
+        self.report().atomics_64
+    }
+
     /// What it is and offers.
     pub fn report(&self) -> &AdapterReport {
         &self.shared.report
@@ -167,6 +172,8 @@ impl Device {
                 }
             }
             if start.elapsed() > self.shared.patience {
+                // wgpu waits for the queue without end when the device is dropped.
+                std::mem::forget(self.clone());
                 return Err(GpuError::Silent {
                     waited: start.elapsed(),
                 });
@@ -209,11 +216,12 @@ fn watch(device: &wgpu::Device, trouble: &Arc<Mutex<Option<GpuError>>>) {
     };
     let lost = trouble.clone();
     device.set_device_lost_callback(move |reason, message| {
-        // Dropping the last handle is no loss.
-        if reason != wgpu::DeviceLostReason::Destroyed {
-            let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
-            note(&lost, GpuError::Lost { message });
-        }
+        let message = if reason == wgpu::DeviceLostReason::Destroyed {
+            "it was taken away".to_owned()
+        } else {
+            message.split_whitespace().collect::<Vec<_>>().join(" ")
+        };
+        note(&lost, GpuError::Lost { message });
     });
     let refused = trouble.clone();
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {

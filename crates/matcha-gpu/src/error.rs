@@ -2,6 +2,9 @@
 
 use crate::memory::PlacementError;
 use crate::shader::LinkError;
+use matcha_cache::CacheError;
+use matcha_render::backend::RenderError;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Why a device does not do what it should.
@@ -51,20 +54,21 @@ pub enum GpuError {
         /// How much it was.
         bytes: u64,
     },
+    /// The scene is more than the device can take.
+    #[error("{0}")]
+    Scene(String),
     /// A limit of the device.
     #[error("{0}")]
     Placement(#[from] PlacementError),
     /// The device is gone.
-    #[error(
-        "the graphics device was lost ({message}); the film so far is saved: try again, or with --device cpu"
-    )]
+    #[error("the graphics device was lost ({message}): try again, or with --device cpu")]
     Lost {
         /// The driver's words.
         message: String,
     },
     /// The device does not come back.
     #[error(
-        "the graphics device has not answered for {} s; the film so far is saved: try again, or with --device cpu",
+        "the graphics device has not answered for {} s: try again, or with --device cpu",
         waited.as_secs()
     )]
     Silent {
@@ -81,6 +85,9 @@ pub enum GpuError {
         /// The driver's words.
         message: String,
     },
+    /// The scene or what is asked of it, whatever the device.
+    #[error("{0}")]
+    Render(#[from] Arc<RenderError>),
     /// A kernel's text does not come together.
     #[error("{0}")]
     Link(#[from] LinkError),
@@ -94,6 +101,24 @@ pub enum GpuError {
         /// Its words.
         message: String,
     },
+}
+
+impl From<RenderError> for GpuError {
+    fn from(error: RenderError) -> Self {
+        GpuError::Render(Arc::new(error))
+    }
+}
+
+impl From<CacheError> for GpuError {
+    fn from(error: CacheError) -> Self {
+        RenderError::from(error).into()
+    }
+}
+
+impl From<GpuError> for RenderError {
+    fn from(error: GpuError) -> Self {
+        RenderError::Device(Box::new(error))
+    }
 }
 
 /// An error's text with its causes', in one line.

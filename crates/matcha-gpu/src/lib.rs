@@ -7,6 +7,7 @@
 //! * [`pipeline`]: kernels compiled, and kept on disk.
 //! * [`batch`]: dispatches, timed.
 //! * [`trace`]: the hierarchy in compressed nodes, and the walk of rays through it.
+//! * [`wavefront`]: a scene's paths on a device; [`backend`]: that as what renders.
 //!
 //! A host layer declares the sections that it reaches into (`//@ read4 bvh_nodes`, see
 //! [`memory::section`]) and calls their accessors ([`memory::accessors`]). A kernel is an
@@ -14,6 +15,7 @@
 //! bound to its arguments (group 0) and to memories (groups 1, 2, …).
 
 pub mod adapter;
+pub mod backend;
 pub mod batch;
 pub mod device;
 mod error;
@@ -24,5 +26,6 @@ pub mod shader;
 #[doc(hidden)]
 pub mod testing;
 pub mod trace;
+pub mod wavefront;
 
 pub use error::GpuError;

@@ -11,6 +11,7 @@
 
 mod blend;
 mod budget;
+mod cache_folder;
 mod cycles;
 mod error;
 mod file;
@@ -19,6 +20,7 @@ mod plain;
 mod report;
 mod tangent;
 
+pub use cache_folder::user_cache_folder;
 pub use error::ImportError;
 pub use report::{Report, ReportItem, ReportKind};
 

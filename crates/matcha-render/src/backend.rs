@@ -4,9 +4,11 @@ use crate::accel::AccelError;
 use crate::film::Film;
 use matcha_cache::CacheError;
 use matcha_shade::nodes::LowerError;
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Whether, and how, results of node networks are kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +71,9 @@ pub enum RenderError {
     /// Threads could not be started.
     #[error("cannot start the render threads: {0}")]
     Threads(String),
+    /// A device fails, in the words of the crate that drives it.
+    #[error("{0}")]
+    Device(Box<dyn std::error::Error + Send + Sync>),
 }
 
 /// How a rendering is watched and stopped from outside.
@@ -76,6 +81,7 @@ pub enum RenderError {
 pub struct Control {
     stop: AtomicBool,
     samples: AtomicU64,
+    first: OnceLock<Instant>,
 }
 
 impl Control {
@@ -91,7 +97,15 @@ impl Control {
 
     /// Adds to the number of pixel samples that are done.
     pub fn add_samples(&self, samples: u64) {
+        if samples > 0 {
+            self.first.get_or_init(Instant::now);
+        }
         self.samples.fetch_add(samples, Ordering::Relaxed);
+    }
+
+    /// When the first pixel sample was done.
+    pub fn first_sample(&self) -> Option<Instant> {
+        self.first.get().copied()
     }
 
     /// Pixel samples done so far.
@@ -153,6 +167,15 @@ impl Statistics {
     }
 }
 
+/// Times of a device that runs kernels; nothing on the CPU.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
+pub struct KernelTimes {
+    /// Time spent in compiling kernels, or in reading compiled ones, seconds.
+    pub pipeline_seconds: f64,
+    /// Device time of each stage, seconds; empty where the device has no clock.
+    pub stage_seconds: BTreeMap<&'static str, f64>,
+}
+
 /// A device with a scene on it.
 pub trait Backend {
     /// The device's name for people and reports.
@@ -170,4 +193,13 @@ pub trait Backend {
 
     /// Totals so far.
     fn statistics(&self) -> Statistics;
+
+    /// Bytes of programs and film, and of what the device holds beside them (the cache's
+    /// are in the statistics, the scene's are the prepared scene's).
+    fn bytes(&self) -> usize;
+
+    /// Times of kernels so far.
+    fn kernel_times(&self) -> KernelTimes {
+        KernelTimes::default()
+    }
 }

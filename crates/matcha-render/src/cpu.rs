@@ -78,12 +78,6 @@ impl CpuBackend {
         &self.prepared
     }
 
-    /// Bytes of programs and film (the cache's are in the statistics, the scene's are the
-    /// prepared scene's).
-    pub fn bytes(&self) -> usize {
-        self.film.bytes() + self.programs.iter().map(Program::bytes).sum::<usize>()
-    }
-
     fn cache_statistics(&self, counts: &CacheCounts) -> CacheStatistics {
         let Some(CpuCache { table, .. }) = &self.cache else {
             return CacheStatistics::default();
@@ -202,5 +196,9 @@ impl Backend for CpuBackend {
         statistics.cache = self.cache_statistics(&counts);
         statistics.nodes_found = self.film.total_nodes_found();
         statistics
+    }
+
+    fn bytes(&self) -> usize {
+        self.film.bytes() + self.programs.iter().map(Program::bytes).sum::<usize>()
     }
 }

@@ -103,6 +103,11 @@ impl Prepared {
         &self.scene
     }
 
+    /// The structure that answers rays.
+    pub fn accel(&self) -> &Accel {
+        &self.accel
+    }
+
     /// Size of the picture, pixels.
     pub fn resolution(&self) -> [u32; 2] {
         self.resolution

@@ -198,8 +198,15 @@ impl Choice<'_> {
     }
 
     fn worst_node(&self) -> Option<usize> {
-        let computed = self.computed_without_cache();
-        let saving = |&(id, _): &(NodeId, u16)| self.cost_beyond(&computed, &[id]);
+        let mut known = self.computed_without_cache();
+        for (id, _) in &self.chosen {
+            known[id.index()] = true;
+        }
+        let saving = |&(id, _): &(NodeId, u16)| {
+            let mut others = known.clone();
+            others[id.index()] = false;
+            self.cost_beyond(&others, &[id])
+        };
         let (at, least) = self
             .chosen
             .iter()
@@ -231,14 +238,14 @@ impl Choice<'_> {
         computed.iter().zip(stop).map(|(&c, s)| c && !s).collect()
     }
 
-    /// Cost of what these nodes need beyond what is computed already.
-    fn cost_beyond(&self, computed: &[bool], nodes: &[NodeId]) -> f32 {
+    /// Cost of what these nodes need beyond what is known already.
+    fn cost_beyond(&self, known: &[bool], nodes: &[NodeId]) -> f32 {
         let graph = &self.network.graph;
-        let mut reach = computed.to_vec();
+        let mut reach = known.to_vec();
         reach_from(graph, nodes, &mut reach);
         graph
             .ids()
-            .filter(|id| reach[id.index()] && !computed[id.index()])
+            .filter(|id| reach[id.index()] && !known[id.index()])
             .map(|id| own_cost(graph, id, self.model))
             .sum()
     }
@@ -400,6 +407,27 @@ mod tests {
     }
 
     #[test]
+    fn what_little_a_node_adds_to_another_is_not_looked_up() {
+        // The rest needs both `a`, which is costly, and `b`, which adds little to it.
+        let network = network_of(|g| {
+            let a = costly(g, 0);
+            let b = g.apply(OpCode::math_add, &[a, a]);
+            tinted(g, &[a, b])
+        });
+        let cost = OpCode::series_of_halves.info().cost;
+        assert_eq!(choose(&network, &costs(0.0)).len(), 2);
+        let model = CostModel {
+            value_ns: 0.7 * cost,
+            ..costs(0.1 * cost)
+        };
+        let chosen = choose(&network, &model);
+        let kinds: Vec<NodeKind> = chosen.iter().map(|c| network.graph.node(c.0).kind).collect();
+        assert_eq!(kinds, [NodeKind::Apply(OpCode::series_of_halves, 0)]);
+        let lookup_ns = 0.4 * cost;
+        assert_eq!(choose(&network, &CostModel { lookup_ns, ..model }), []);
+    }
+
+    #[test]
     fn nodes_of_a_set_share_a_look_up() {
         let network = network_of(|g| {
             let a = costly(g, 0);
@@ -421,19 +449,6 @@ mod tests {
         // The sine is not worth an entry of its own, and without it the set is not either.
         let value_ns = 1.1 * sine;
         assert_eq!(sets(CostModel { value_ns, ..model }), []);
-    }
-
-    #[test]
-    fn what_the_rest_needs_anyway_saves_nothing() {
-        // The rest needs `a`, which is too cheap to cache; `b` adds little to it.
-        let network = network_of(|g| {
-            let a = costly(g, 0);
-            let b = g.apply(OpCode::math_add, &[a, a]);
-            tinted(g, &[a, b])
-        });
-        let cost = OpCode::series_of_halves.info().cost;
-        assert_eq!(choose(&network, &costs(0.0)).len(), 2);
-        assert_eq!(choose(&network, &costs(cost * 0.7)).len(), 0);
     }
 
     #[test]

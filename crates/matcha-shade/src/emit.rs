@@ -299,11 +299,12 @@ impl Emitter {
         name: &str,
         kind: MaterialKind,
     ) -> Result<Program, ProgramError> {
-        let program = Program {
+        let mut program = Program {
             name: name.to_owned(),
             kind,
             inputs: self.inputs,
             input_rows: self.input_rows,
+            loads: Vec::new(),
             words: self.words,
             slots: self.slots,
             regions: self.regions,
@@ -315,6 +316,7 @@ impl Emitter {
             outputs,
             cost,
         };
+        program.loads = program.find_loads();
         program.verify()?;
         Ok(program)
     }

@@ -128,8 +128,11 @@ pub struct Program {
     pub kind: MaterialKind,
     /// What it reads, with the first row of each in the input matrix.
     pub inputs: Vec<(Input, usize)>,
-    /// Rows of the input matrix; they are loaded into the registers of the same number.
+    /// Rows of the input matrix.
     pub(crate) input_rows: usize,
+    /// Those that the words after the regions read; they are loaded into the registers of
+    /// the same number. The others are for texels only.
+    pub(crate) loads: Vec<u16>,
     /// The words: regions first.
     pub(crate) words: Vec<Word>,
     /// Registers that the machine needs.
@@ -189,7 +192,14 @@ impl Program {
         &self.outputs
     }
 
-    /// Rows of the input matrix; they are loaded into the registers of the same number.
+    /// Rows of the input matrix that the words after the regions read, from the registers of
+    /// the same number.
+    pub fn loads(&self) -> &[u16] {
+        &self.loads
+    }
+
+    /// Rows of the input matrix. Each has the register of its number to itself until the
+    /// words after the regions have read it.
     pub fn input_rows(&self) -> usize {
         self.input_rows
     }
@@ -261,6 +271,32 @@ impl Program {
     pub fn constant_output(&self, row: usize) -> Option<f32> {
         let operand = self.outputs[row];
         (operand & CONSTANT != 0).then(|| self.constants[(operand & !CONSTANT) as usize])
+    }
+
+    /// The input rows that the words after the regions, and the outputs, read.
+    pub(crate) fn find_loads(&self) -> Vec<u16> {
+        let mut waiting = vec![true; self.input_rows];
+        let mut loads = Vec::new();
+        let mut read = |waiting: &mut [bool], operand: u16| {
+            // A constant's number is above all registers'.
+            if waiting.get(operand as usize) == Some(&true) {
+                waiting[operand as usize] = false;
+                loads.push(operand);
+            }
+        };
+        for word in &self.words[self.rest()..] {
+            let (operands, results) = verify::shape(self, word).unwrap_or((0, 0));
+            for &operand in &word.src[..operands] {
+                read(&mut waiting, operand);
+            }
+            let written = word.dst as usize..word.dst as usize + results;
+            let written = written.start.min(self.input_rows)..written.end.min(self.input_rows);
+            waiting[written].fill(false);
+        }
+        for &operand in &self.outputs {
+            read(&mut waiting, operand);
+        }
+        loads
     }
 
     fn may_differ(&self, mut rows: Range<usize>, from: f32) -> bool {

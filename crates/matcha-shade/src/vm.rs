@@ -193,7 +193,8 @@ fn run_group<const N: usize>(
     let words = program.rest()..program.words().len();
     for start in (0..group.n).step_by(N) {
         let active = N.min(group.n - start);
-        for row in 0..program.input_rows() {
+        for &row in program.loads() {
+            let row = row as usize;
             core.load(row, &group.inputs.row(row)[start..], active);
         }
         for (region, values) in program.regions().iter().zip(&cached.results) {

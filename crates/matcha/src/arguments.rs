@@ -20,6 +20,8 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Say what became of a scene's materials
     Inspect(InspectArguments),
+    /// List the graphics adapters, what they have and what they lack
+    Devices(DevicesArguments),
 }
 
 #[derive(Debug, Args)]
@@ -65,6 +67,13 @@ pub(crate) struct InspectArguments {
     pub json: bool,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct DevicesArguments {
+    /// For machines
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// What is loaded, and how.
 #[derive(Debug, Args)]
 pub(crate) struct SceneArguments {
@@ -103,9 +112,16 @@ pub(crate) struct Options {
     /// Seed; otherwise the scene's
     #[arg(long, value_name = "N")]
     pub seed: Option<u32>,
-    /// Where to render
-    #[arg(long, value_enum, default_value_t = Device::Auto)]
+    /// Where to render: auto is a GPU that can, else the CPU; gpu is the best adapter there
+    /// is, gpu:N one by its number in `matcha devices`, anything else a part of its name
+    #[arg(long, value_name = "auto|cpu|gpu|gpu:N|NAME", default_value = "auto", value_parser = device)]
     pub device: Device,
+    /// How networks are evaluated on a GPU when results are kept
+    #[arg(long, value_enum, default_value_t = MaterialStage::Split)]
+    pub material_stage: MaterialStage,
+    /// Stages before this one run on the CPU
+    #[arg(long, value_name = "STAGE", hide = true)]
+    pub gpu_from: Option<String>,
     /// Write full statistics
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
@@ -119,12 +135,27 @@ pub(crate) enum Cache {
     Off,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+/// Where to render.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Device {
-    /// The fastest there is
+    /// The fastest there is.
     Auto,
-    /// The processor
+    /// The processor.
     Cpu,
+    /// The best adapter there is.
+    Gpu,
+    /// An adapter by its number.
+    Numbered(usize),
+    /// An adapter by a part of its name.
+    Named(String),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MaterialStage {
+    /// Each hit evaluates at once what it does not find, as in the paper
+    Inline,
+    /// All hits look up first; what is missing is evaluated side by side
+    Split,
 }
 
 impl Options {
@@ -172,9 +203,38 @@ fn threads(text: &str) -> Result<usize, String> {
     }
 }
 
+fn device(text: &str) -> Result<Device, String> {
+    let refuse = || "a device is auto, cpu, gpu, gpu:N, or a part of an adapter's name".to_owned();
+    match text.to_lowercase().as_str() {
+        "" => Err(refuse()),
+        "auto" => Ok(Device::Auto),
+        "cpu" => Ok(Device::Cpu),
+        "gpu" => Ok(Device::Gpu),
+        lower => match lower.strip_prefix("gpu:") {
+            Some(number) => number.parse().map(Device::Numbered).map_err(|_| refuse()),
+            None => Ok(Device::Named(text.to_owned())),
+        },
+    }
+}
+
 fn finite(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(x) if x.abs() <= 64.0 => Ok(x),
         _ => Err("a level offset is a number from -64 to 64".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn devices_are_words_numbers_and_names() {
+        assert_eq!(device("auto"), Ok(Device::Auto));
+        assert_eq!(device("CPU"), Ok(Device::Cpu));
+        assert_eq!(device("gpu"), Ok(Device::Gpu));
+        assert_eq!(device("gpu:12"), Ok(Device::Numbered(12)));
+        assert_eq!(device("Radeon"), Ok(Device::Named("Radeon".into())));
+        assert!(device("").is_err() && device("gpu:").is_err() && device("gpu:-1").is_err());
     }
 }

@@ -3,6 +3,7 @@
 
 mod arguments;
 mod command;
+mod device;
 mod interrupt;
 mod loading;
 pub mod measure;
@@ -19,6 +20,7 @@ use std::process::ExitCode;
 /// Runs the command line of this process. Every error is one sentence on standard
 /// error and exit code 2; a rendering that was interrupted ends with 130.
 pub fn main() -> ExitCode {
+    session::note_start();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return refuse_arguments(&error),
@@ -28,6 +30,7 @@ pub fn main() -> ExitCode {
         Command::Render(arguments) => command::render::run(arguments),
         Command::Compare(arguments) => command::compare::run(arguments),
         Command::Inspect(arguments) => command::inspect::run(arguments),
+        Command::Devices(arguments) => command::devices::run(arguments),
     };
     match outcome {
         Ok(End::Done) => ExitCode::SUCCESS,
@@ -53,7 +56,7 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        eprintln!("matcha: no command was given; there are render, compare and inspect");
+        eprintln!("matcha: no command was given; there are render, compare, inspect and devices");
         return ExitCode::from(2);
     }
     let text = error.render().to_string();
@@ -89,7 +92,9 @@ fn one_line(text: &str) -> String {
 /// Warnings and what was substituted, on standard error; more with `RUST_LOG`.
 fn start_log() {
     let filter = tracing_subscriber::EnvFilter::try_from_default_env().unwrap_or_else(|_| {
-        tracing_subscriber::EnvFilter::new("warn,matcha=info,matcha_import=info,matcha_render=info")
+        tracing_subscriber::EnvFilter::new(
+            "warn,matcha=info,matcha_import=info,matcha_render=info,matcha_gpu=info",
+        )
     });
     tracing_subscriber::fmt()
         .with_env_filter(filter)

@@ -86,6 +86,14 @@ pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     write(path, text.as_bytes())
 }
 
+/// Writes to standard output; a closed pipe is no error.
+pub(crate) fn print(text: &str) -> Result<()> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
+    }
+}
+
 /// A file that is not finished, with the permissions that any new file has.
 fn part_file() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();

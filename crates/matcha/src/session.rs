@@ -1,22 +1,32 @@
 //! Rendering in slices of samples, watched and stoppable.
 
-use crate::arguments::{Cache, Device, Options, SceneArguments};
+use crate::End;
+use crate::arguments::{Cache, Options, SceneArguments};
+use crate::device::Device;
 use crate::interrupt;
 use crate::loading;
 use crate::picture::view::View;
 use crate::progress::Watch;
-use anyhow::{Result, bail};
-use matcha_render::backend::{Backend, Control, Statistics};
-use matcha_render::cpu::CpuBackend;
+use anyhow::{Result, anyhow, bail};
+use matcha_render::backend::{Backend, Control, KernelTimes, RenderError, Statistics};
 use matcha_render::prepare::Prepared;
 use serde::Serialize;
 use std::ops::Range;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
+use std::time::Instant;
 
 /// Samples of each pixel that are rendered in one go: enough for whole batches, few
 /// enough to compare fairly on a machine whose speed drifts.
 const SLICE: u32 = 8;
+
+/// When the program began.
+static START: OnceLock<Instant> = OnceLock::new();
+
+/// Notes that the program begins now.
+pub(crate) fn note_start() {
+    START.get_or_init(Instant::now);
+}
 
 /// A scene that is ready, and how it will be shown.
 pub(crate) struct Loaded {
@@ -67,14 +77,17 @@ impl Loaded {
         })
     }
 
-    /// A renderer of the scene.
-    pub fn backend(&self, options: &Options, cache: Cache) -> Result<CpuBackend> {
-        match options.device {
-            Device::Auto | Device::Cpu => {
-                let options = options.render_options(cache);
-                Ok(CpuBackend::new(self.prepared.clone(), &options)?)
-            }
-        }
+    /// Renderers of the scene on a device, one for each cache.
+    pub fn backends<const N: usize>(
+        &self,
+        device: &Device,
+        options: &Options,
+        caches: [Cache; N],
+    ) -> Result<[Box<dyn Backend>; N]> {
+        device.backends(
+            &self.prepared,
+            caches.map(|cache| options.render_options(cache)),
+        )
     }
 
     /// Picture size, pixels.
@@ -105,37 +118,69 @@ impl Loaded {
     }
 }
 
+/// How a rendering ended that has something to save.
+#[derive(Debug)]
+pub(crate) enum Outcome {
+    /// With all samples.
+    Complete,
+    /// Somebody stopped it.
+    Interrupted,
+    /// The device failed.
+    Failed(RenderError),
+}
+
+impl Outcome {
+    /// How the command ends, once everything is saved in `place`.
+    pub fn end(self, place: &Path) -> Result<End> {
+        match self {
+            Outcome::Complete => Ok(End::Done),
+            Outcome::Interrupted => Ok(End::Interrupted),
+            Outcome::Failed(error) => Err(anyhow!(
+                "{error}; what was rendered so far is saved in {}",
+                place.display()
+            )),
+        }
+    }
+}
+
 /// Renders all samples with all backends, slice by slice, the order turned around each
-/// time, so that what else the machine does hits all alike. False if it was interrupted.
-pub(crate) fn render(loaded: &Loaded, backends: &mut [&mut CpuBackend]) -> Result<bool> {
+/// time, so that what else the machine does hits all alike.
+///
+/// # Errors
+/// If it ended early and a backend's film is empty.
+pub(crate) fn render(loaded: &Loaded, backends: &mut [Box<dyn Backend>]) -> Result<Outcome> {
     let control = interrupt::stoppable();
     let total = loaded.pixel_samples() * backends.len() as u64;
     let watch = Watch::start(control.clone(), total);
-    for (k, slice) in loaded.slices().enumerate() {
-        let count = backends.len();
-        for turn in 0..count {
-            let index = if k % 2 == 0 { turn } else { count - 1 - turn };
-            backends[index].render(slice.clone(), &control)?;
-            if control.stopped() {
-                break;
-            }
-        }
-        if control.stopped() {
-            break;
-        }
-    }
+    let rendered = loaded
+        .slices()
+        .enumerate()
+        .try_for_each(|(k, slice)| render_slice(backends, k % 2 == 1, slice, &control));
     drop(watch);
-    finished(&control, backends)
+    let empty = || backends.iter().any(|b| b.film().total_samples() == 0);
+    match rendered {
+        Err(error) if empty() => Err(error.into()),
+        Err(error) => Ok(Outcome::Failed(error)),
+        Ok(()) if !control.stopped() => Ok(Outcome::Complete),
+        Ok(()) if empty() => bail!("stopped before there was anything to save"),
+        Ok(()) => Ok(Outcome::Interrupted),
+    }
 }
 
-fn finished(control: &Control, backends: &[&mut CpuBackend]) -> Result<bool> {
-    let nothing = backends
-        .iter()
-        .any(|backend| backend.film().total_samples() == 0);
-    if control.stopped() && nothing {
-        bail!("stopped before there was anything to save");
+fn render_slice(
+    backends: &mut [Box<dyn Backend>],
+    backwards: bool,
+    slice: Range<u32>,
+    control: &Control,
+) -> Result<(), RenderError> {
+    let count = backends.len();
+    for turn in 0..count {
+        let index = if backwards { count - 1 - turn } else { turn };
+        if !control.stopped() {
+            backends[index].render(slice.clone(), control)?;
+        }
     }
-    Ok(!control.stopped())
+    Ok(())
 }
 
 /// Everything that `--stats` writes of one rendering.
@@ -153,12 +198,16 @@ pub(crate) struct FullStatistics {
     renderer_bytes: usize,
     /// Most memory that the process has had, where the system says.
     peak_bytes: Option<u64>,
+    /// From the start of the program to the first pixel sample of any renderer.
+    first_sample_seconds: Option<f64>,
+    #[serde(flatten)]
+    kernels: KernelTimes,
     #[serde(flatten)]
     statistics: Statistics,
 }
 
 impl FullStatistics {
-    pub fn of(loaded: &Loaded, backend: &CpuBackend) -> Self {
+    pub fn of(loaded: &Loaded, backend: &dyn Backend) -> Self {
         let statistics = backend.statistics();
         let per_second = |n: u64| n as f64 / statistics.seconds.max(1e-9);
         Self {
@@ -171,9 +220,16 @@ impl FullStatistics {
             scene_bytes: loaded.bytes(),
             renderer_bytes: backend.bytes(),
             peak_bytes: peak_memory(),
+            first_sample_seconds: first_sample_seconds(),
+            kernels: backend.kernel_times(),
             statistics,
         }
     }
+}
+
+fn first_sample_seconds() -> Option<f64> {
+    let first = interrupt::stoppable().first_sample()?;
+    Some(first.duration_since(*START.get()?).as_secs_f64())
 }
 
 /// Most resident memory of this process so far, bytes.

@@ -69,8 +69,8 @@ fn arguments_that_make_no_sense_are_refused_in_a_sentence() {
             "maybe",
         ),
         (
-            &["render", "a.glb", "-o", "a.png", "--device", "abacus"],
-            "abacus",
+            &["render", "a.glb", "-o", "a.png", "--device", "gpu:first"],
+            "auto, cpu, gpu",
         ),
         (&["inspect", "a.glb", "--dot"], "--material"),
         (&["bake", "a.glb"], "bake"),

@@ -2,20 +2,16 @@
 
 // Rows of as many words as there is room for rays: origin, direction, t_min, t_max, mask,
 // excluded instance and primitive.
-//@ read trace_rays
+//@ read trace_rays 11
 // Rows: t, u, v, instance, primitive.
-//@ write trace_hits
-//@ plain trace_count
-
-const TRACE_RAY_ROWS = 11u;
-const TRACE_HIT_ROWS = 5u;
+//@ write trace_hits 5
 
 fn trace_ray_float(row: u32, i: u32) -> f32 {
     return bitcast<f32>(trace_ray_word(row, i));
 }
 
 fn trace_ray_word(row: u32, i: u32) -> u32 {
-    return word_trace_rays(row * (count_trace_rays() / TRACE_RAY_ROWS) + i);
+    return word_trace_rays(row * count_trace_rays() + i);
 }
 
 fn trace_load_ray(i: u32) -> TraceRay {
@@ -31,7 +27,7 @@ fn trace_load_ray(i: u32) -> TraceRay {
 }
 
 fn trace_store_hit(i: u32, hit: TraceHit) {
-    let row = count_trace_hits() / TRACE_HIT_ROWS;
+    let row = count_trace_hits();
     put_trace_hits(i, bitcast<u32>(hit.t));
     put_trace_hits(row + i, bitcast<u32>(hit.u));
     put_trace_hits(2u * row + i, bitcast<u32>(hit.v));
@@ -39,26 +35,21 @@ fn trace_store_hit(i: u32, hit: TraceHit) {
     put_trace_hits(4u * row + i, hit.primitive);
 }
 
-// The number of an invocation in a dispatch that may be two-dimensional, because a dimension has
-// at most 65,535 workgroups.
-fn trace_index(id: vec3u, groups: vec3u) -> u32 {
-    return id.y * groups.x * 64u + id.x;
-}
-
+// Argument 0: number of rays.
 @compute @workgroup_size(64)
-fn trace_closest_rays(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let i = trace_index(id, groups);
-    if i < word_trace_count(0u) {
+fn trace_closest_rays(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = invocation_number(group, local);
+    if i < argument(0u) {
         trace_store_hit(i, trace_closest(trace_load_ray(i)));
     }
 }
 
-// Only the instance's row is meant: TRACE_NOTHING where nothing is hit.
+// Only the instance's row is meant: TRACE_NOTHING where nothing is hit. Argument 0: number of rays.
 @compute @workgroup_size(64)
-fn trace_occluded_rays(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let i = trace_index(id, groups);
-    if i < word_trace_count(0u) {
+fn trace_occluded_rays(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
+    let i = invocation_number(group, local);
+    if i < argument(0u) {
         let occluded = trace_occluded(trace_load_ray(i));
-        put_trace_hits(3u * (count_trace_hits() / TRACE_HIT_ROWS) + i, select(TRACE_NOTHING, 0u, occluded));
+        put_trace_hits(3u * count_trace_hits() + i, select(TRACE_NOTHING, 0u, occluded));
     }
 }

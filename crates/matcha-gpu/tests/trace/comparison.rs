@@ -1,64 +1,66 @@
 //! Both devices' answers to the same rays.
 
-use super::adapter::{Device, Section};
-use matcha_gpu::trace::{HIT_ROWS, RAY_ROWS, WideTree, hits_of_rows, ray_rows};
+use matcha_gpu::GpuError;
+use matcha_gpu::batch::{Extent, Runner};
+use matcha_gpu::device::Device;
+use matcha_gpu::memory::{Memory, Sections};
+use matcha_gpu::pipeline::{KernelSource, Pipelines};
+use matcha_gpu::shader::Library;
+use matcha_gpu::trace::{HIT_ROWS, WideTree, hits_of_rows, ray_rows};
 use matcha_render::accel::{Accel, Hit, Ray};
-use matcha_wgsl::{Module, translate};
+use std::time::Duration;
 
-/// The walk's WGSL with the device code that it needs.
-fn wgsl(stack: u32) -> String {
-    let read =
-        |path: &str| Module::read(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).expect(path);
-    let modules = [
-        "../matcha-shade/src/device/math.rs",
-        "../matcha-render/src/device/ray_box.rs",
-        "../matcha-render/src/device/ray_triangle.rs",
-    ];
-    let device = translate(&modules.map(read)).unwrap_or_else(|e| panic!("{e}"));
-    let needed = [
-        "ray_is_sound",
-        "box_inverse",
-        "BOX_FAR_SLACK",
-        "triangle_sides",
-        "triangle_inside",
-        "triangle_distance",
-        "triangle_weights",
-    ];
-    let text = |path: &str| read(path).source;
-    format!(
-        "const TRACE_STACK = {stack}u;\nfn word_trace_count(k: u32) -> u32 {{ return count_trace_rays() / 11u; }}\n{}{}{}",
-        device.needed(needed).text(),
-        text("src/wgsl/traverse.wgsl"),
-        text("src/wgsl/trace_batch.wgsl")
-    )
+/// A hierarchy and rays on the device.
+pub struct Tracer {
+    device: Device,
+    library: Library,
+    memory: Memory,
+    rays: u32,
 }
 
-/// What the device finds: nearest hits, or instances alone for `trace_occluded_rays`.
-pub fn trace(device: &Device, tree: &WideTree, rays: &[Ray], entry: &str) -> Vec<Option<Hit>> {
-    let rows = ray_rows(rays);
-    let hits = vec![u32::MAX; HIT_ROWS * rays.len()];
-    let padded;
-    let triangles: &[u32] = if tree.triangles.is_empty() {
-        padded = [0; 12];
-        &padded
-    } else {
-        bytemuck::cast_slice(&tree.triangles)
-    };
-    let section = |name, class, stride, words| Section {
-        name,
-        class,
-        stride,
-        words,
-    };
-    let sections = [
-        section("bvh_nodes", "read4", 5, bytemuck::cast_slice(&tree.nodes)),
-        section("bvh_triangles", "read4", 3, triangles),
-        section("trace_rays", "read", 1, &rows),
-        section("trace_hits", "write", 1, &hits),
-    ];
-    assert_eq!(rows.len(), RAY_ROWS * rays.len());
-    let kernel = device.kernel(&wgsl(tree.stack()), &sections, entry);
-    hits_of_rows(&device.run(&kernel, &sections, rays.len()))
+impl Tracer {
+    pub fn new(device: &Device, tree: &WideTree, rays: &[Ray]) -> Result<Tracer, GpuError> {
+        let mut library = Library::embedded(device.report().atomics_64)?;
+        library.set_constant("TRACE_STACK", tree.stack())?;
+        let mut sections = Sections::new();
+        sections.filled(&library, "bvh_nodes", bytemuck::cast_slice(&tree.nodes))?;
+        let triangles: &[u32] = bytemuck::cast_slice(&tree.triangles);
+        sections.filled(&library, "bvh_triangles", triangles)?;
+        sections.filled(&library, "trace_rays", ray_rows(rays))?;
+        sections.zeroed(&library, "trace_hits", (HIT_ROWS * rays.len()) as u64)?;
+        Ok(Tracer {
+            memory: sections.place(device, 1, &[])?,
+            device: device.clone(),
+            library,
+            rays: rays.len() as u32,
+        })
+    }
+
+    /// What the device finds, nearest hits or for `trace_occluded_rays` the instances alone; and
+    /// how long it took.
+    pub fn trace(&self, entry: &str) -> Result<(Vec<Option<Hit>>, Duration), GpuError> {
+        let memories = [&self.memory];
+        let kernel = Pipelines::new(&self.device, None).kernel(&KernelSource {
+            name: entry,
+            library: &self.library,
+            memories: &memories,
+            constants: &[],
+        })?;
+        let mut runner = Runner::new(&self.device)?;
+        let mut batch = runner.batch();
+        batch.dispatch(
+            "trace",
+            &kernel,
+            &memories,
+            &[self.rays],
+            Extent::Items(self.rays),
+        );
+        let time = batch.run()?.wall;
+        let rows = self
+            .memory
+            .read("trace_hits", 0, self.memory.length("trace_hits")?)?;
+        Ok((hits_of_rows(&rows), time))
+    }
 }
 
 /// How two devices' answers differ.
@@ -76,9 +78,10 @@ pub struct Difference {
     pub hits: usize,
 }
 
-pub fn compare(device: &Device, accel: &Accel, tree: &WideTree, rays: &[Ray]) -> Difference {
-    let found = trace(device, tree, rays, "trace_closest_rays");
-    let shadows = trace(device, tree, rays, "trace_occluded_rays");
+/// Answers that differ.
+pub fn compare(tracer: &Tracer, accel: &Accel, rays: &[Ray]) -> Result<Difference, GpuError> {
+    let (found, _) = tracer.trace("trace_closest_rays")?;
+    let (shadows, _) = tracer.trace("trace_occluded_rays")?;
     let mut difference = Difference::default();
     for ((ray, found), shadow) in rays.iter().zip(found).zip(shadows) {
         let expected = accel.closest(ray);
@@ -103,5 +106,5 @@ pub fn compare(device: &Device, accel: &Accel, tree: &WideTree, rays: &[Ray]) ->
             }
         }
     }
-    difference
+    Ok(difference)
 }

@@ -1,11 +1,11 @@
 //! The device's walk against the processor's, on the same rays.
 
-mod adapter;
 mod comparison;
 mod scenes;
 
-use adapter::Device;
-use comparison::{Difference, compare, trace};
+use comparison::{Difference, Tracer};
+use matcha_gpu::device::Device;
+use matcha_gpu::testing;
 use matcha_gpu::trace::WideTree;
 use matcha_render::accel::{Accel, BuildOptions, Ray};
 
@@ -13,6 +13,11 @@ use matcha_render::accel::{Accel, BuildOptions, Ray};
 const TIES: usize = 5;
 /// Rays (of 100,000) that may pass an edge on the other side on a device that fuses products.
 const GRAZING: usize = 5;
+
+fn compare(device: &Device, accel: &Accel, tree: &WideTree, rays: &[Ray]) -> Difference {
+    let tracer = Tracer::new(device, tree, rays).unwrap_or_else(|e| panic!("{e}"));
+    comparison::compare(&tracer, accel, rays).unwrap_or_else(|e| panic!("{e}"))
+}
 
 fn assert_agree(difference: &Difference, rays: usize) {
     let allowed = |share: usize| rays * share / 100_000;
@@ -44,7 +49,9 @@ fn structures(flat: Option<usize>, seed: u64) -> (Accel, WideTree) {
 
 #[test]
 fn the_device_finds_what_the_processor_finds() {
-    let Some(device) = Device::find() else { return };
+    let Some(device) = testing::device() else {
+        return;
+    };
     for (flat, seed) in [(Some(0), 1), (None, 2), (Some(3000), 3)] {
         let (accel, tree) = structures(flat, seed);
         let rays = scenes::rays(&accel, 5.0, 200_000, seed);
@@ -58,7 +65,9 @@ fn the_device_finds_what_the_processor_finds() {
 /// smaller ones are no numbers that every device has.)
 #[test]
 fn nested_triangles_of_all_sizes_are_found() {
-    let Some(device) = Device::find() else { return };
+    let Some(device) = testing::device() else {
+        return;
+    };
     let mut accel = Accel::build(&scenes::nested(60, 0.7)).expect("a structure");
     accel.use_portable_kernel();
     let tree = WideTree::new(&accel).expect("a hierarchy");
@@ -76,18 +85,22 @@ fn nested_triangles_of_all_sizes_are_found() {
 
 #[test]
 fn an_empty_scene_has_no_hits() {
-    let Some(device) = Device::find() else { return };
+    let Some(device) = testing::device() else {
+        return;
+    };
     let accel = Accel::build(&Default::default()).expect("a structure");
     let tree = WideTree::new(&accel).expect("a hierarchy");
     let rays = vec![Ray::new(glam::Vec3::ZERO, glam::Vec3::X); 100];
-    let hits = trace(&device, &tree, &rays, "trace_closest_rays");
-    assert_eq!(hits, vec![None; 100]);
+    let difference = compare(&device, &accel, &tree, &rays);
+    assert_eq!((difference.other, difference.shadows), (0, 0));
 }
 
 /// The comparison must notice one wrong byte: the upper side of one box of the root.
 #[test]
 fn must_fail_a_corrupted_node_is_noticed() {
-    let Some(device) = Device::find() else { return };
+    let Some(device) = testing::device() else {
+        return;
+    };
     let (accel, mut tree) = structures(None, 2);
     let slot = tree.nodes[0].kinds.trailing_zeros() as usize;
     let sides = &mut tree.nodes[0].sides[0];

@@ -5,6 +5,7 @@
 
 use super::EXPORTER;
 use super::run::Told;
+use crate::cache_folder::{first_writable, user_cache_folder};
 use crate::error::ImportError;
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -143,40 +144,21 @@ impl Kept {
 
 /// The first of the chosen folder, the user's cache folder and the scene's own that can be written.
 fn folder(blend: &Path, chosen: Option<&Path>) -> Result<PathBuf, ImportError> {
-    let variable = |name| {
-        std::env::var_os(name)
-            .filter(|value| !value.is_empty())
-            .map(PathBuf::from)
-    };
-    let user =
-        variable("XDG_CACHE_HOME").or_else(|| variable("HOME").map(|home| home.join(".cache")));
-    let beside = blend.parent().unwrap_or(Path::new("")).to_owned();
-    let beside = if beside.as_os_str().is_empty() {
-        PathBuf::from(".")
-    } else {
-        beside
+    let beside = match blend.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
     };
     let candidates = match chosen {
         Some(chosen) => vec![chosen.to_owned()],
-        None => user
-            .map(|user| user.join("matcha"))
+        None => user_cache_folder()
             .into_iter()
-            .chain([beside])
+            .chain([beside.to_owned()])
             .collect(),
     };
-    let mut last = None;
-    for folder in candidates {
-        match fs::create_dir_all(&folder).and_then(|()| tempfile::tempfile_in(&folder).map(drop)) {
-            Ok(()) => return Ok(folder),
-            Err(source) => {
-                last = Some(ImportError::Write {
-                    file: folder,
-                    source,
-                })
-            }
-        }
-    }
-    Err(last.unwrap_or(ImportError::UnknownFormat {
-        file: blend.to_owned(),
-    }))
+    first_writable(candidates).map_err(|last| match last {
+        Some((file, source)) => ImportError::Write { file, source },
+        None => ImportError::UnknownFormat {
+            file: blend.to_owned(),
+        },
+    })
 }

@@ -56,14 +56,14 @@ pub fn closure_estimate(lobe: ClosureLobe, tables: ClosureTables) -> ClosureRefl
         Vec3::ZERO
     } else if lobe.fresnel == FRESNEL_REMAPPED {
         let share = closure_dielectric_position(tables, roughness, lobe.cos_wo, lobe.ior);
-        closure_towards_white(lobe.f0, share) * lobe.reflect_tint
+        closure_towards_white(lobe.f0, share) * lobe.reflects
     } else if lobe.fresnel == FRESNEL_F82 {
         let share = closure_schlick_position(tables, roughness, lobe.cos_wo);
-        closure_towards_white(lobe.f0, share) * lobe.reflect_tint
+        closure_towards_white(lobe.f0, share) * lobe.reflects
     } else if lobe.fresnel == FRESNEL_DIELECTRIC && lobe.ior > 1.0 {
         let f0 = fresnel_f0(lobe.ior);
         let share = closure_dielectric_position(tables, roughness, lobe.cos_wo, lobe.ior);
-        lobe.reflect_tint * (f0 + (1.0 - f0) * share)
+        splat3(lobe.reflects * (f0 + (1.0 - f0) * share))
     } else {
         sides.reflect
     };

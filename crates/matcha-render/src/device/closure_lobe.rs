@@ -85,14 +85,12 @@ pub fn closure_counts(context: ClosureContext, weight: Vec3) -> bool {
 #[inline]
 pub fn closure_lobe(frame: ClosureFrame, kind: u32, weight: Vec3, normal: Vec3) -> ClosureLobe {
     let positive = max3(weight, Vec3::ZERO);
-    let n = frame.n;
     ClosureLobe {
         kind,
         fresnel: FRESNEL_NONE,
-        bent: normal.x != n.x || normal.y != n.y || normal.z != n.z,
+        reflects: 1.0,
         weight: positive,
         sample_weight: closure_mean(positive),
-        albedo: positive,
         normal,
         tangent: mapping_frame(normal).x,
         alpha_x: 1.0,
@@ -100,9 +98,7 @@ pub fn closure_lobe(frame: ClosureFrame, kind: u32, weight: Vec3, normal: Vec3) 
         ior: 1.0,
         energy: 1.0,
         f0: Vec3::ZERO,
-        extra: Vec3::ZERO,
-        reflect_tint: splat3(1.0),
-        transmit_tint: Vec3::ZERO,
+        tint: Vec3::ZERO,
         cos_wo: dot(normal, frame.wo),
         lambda_wo: 0.0,
     }
@@ -121,8 +117,8 @@ pub fn closure_glass_sides(
     lobe.ior = closure_facing_ior(backfacing, ior);
     lobe.fresnel = FRESNEL_REMAPPED;
     lobe.f0 = min3(max3(f0, Vec3::ZERO), splat3(1.0));
-    lobe.reflect_tint = splat3(select(0.0, 1.0, context.reflective_caustics));
-    lobe.transmit_tint = tint * select(0.0, 1.0, context.refractive_caustics);
+    lobe.reflects = select(0.0, 1.0, context.reflective_caustics);
+    lobe.tint = tint * select(0.0, 1.0, context.refractive_caustics);
 }
 
 /// The index of refraction behind over in front, of the index seen from the front.
@@ -133,13 +129,18 @@ pub fn closure_facing_ior(backfacing: bool, ior: f32) -> f32 {
 
 /// Blurs, completes and keeps a microfacet or Phong lobe.
 #[inline]
-pub fn closure_keep(set: &mut LobeSet, context: ClosureContext, mut lobe: ClosureLobe) {
+pub fn closure_keep(
+    set: &mut LobeSet,
+    context: ClosureContext,
+    mut lobe: ClosureLobe,
+    albedo: Vec3,
+) {
     lobe.alpha_x = max(lobe.alpha_x, context.blur);
     lobe.alpha_y = max(lobe.alpha_y, context.blur);
     if lobe.kind == LOBE_GGX || lobe.kind == LOBE_BECKMANN {
         lobe.lambda_wo = lobe_lambda(lobe, set.frame.wo);
     }
-    closure_set_push(set, lobe);
+    closure_set_push(set, lobe, albedo);
 }
 
 /// Weighs sampling by the lobe's reflectance, gives back the energy of multiple scattering
@@ -161,8 +162,8 @@ pub fn closure_keep_fresnel(
         lobe.sample_weight *= closure_mean(energy.darkening);
     }
     let reflected = lobe.weight * reflectance.reflected;
-    lobe.albedo = reflected + lobe.weight * reflectance.transmitted;
-    closure_keep(set, context, lobe);
+    let albedo = reflected + lobe.weight * reflectance.transmitted;
+    closure_keep(set, context, lobe, albedo);
     reflected
 }
 
@@ -177,7 +178,7 @@ pub fn closure_add_lambert(
 ) {
     if closure_counts(context, weight) {
         let lobe = closure_lobe(set.frame, kind, weight, normal);
-        closure_set_push(set, lobe);
+        closure_set_push(set, lobe, lobe.weight);
     }
 }
 
@@ -206,9 +207,9 @@ pub fn closure_add_diffuse(
             lobe.kind = LOBE_OREN_NAYAR;
             lobe.lambda_wo = a;
             lobe.alpha_y = b;
-            lobe.extra = series * (1.0 - towards_wo);
+            lobe.tint = series * (1.0 - towards_wo);
         }
-        closure_set_push(set, lobe);
+        closure_set_push(set, lobe, lobe.weight);
     }
 }
 
@@ -223,7 +224,7 @@ pub fn closure_add_velvet(
     if closure_counts(context, weight) {
         let mut lobe = closure_lobe(set.frame, LOBE_VELVET, weight, normal);
         lobe.alpha_x = max(saturate(roughness), 0.01);
-        closure_set_push(set, lobe);
+        closure_set_push(set, lobe, lobe.weight);
     }
 }
 
@@ -245,10 +246,9 @@ pub fn closure_add_sheen(
             lobe.alpha_y = fit.b;
             lobe.weight *= fit.albedo;
             lobe.sample_weight *= fit.albedo;
-            lobe.albedo = lobe.weight;
             lobe.tangent = closure_across(normal, set.frame.wo);
             reflected = lobe.weight;
-            closure_set_push(set, lobe);
+            closure_set_push(set, lobe, lobe.weight);
         }
     }
     reflected

@@ -157,8 +157,7 @@ fn closure_prepare_glossy(
             lobe.weight *= energy.darkening;
             lobe.sample_weight *= closure_mean(energy.darkening);
         }
-        lobe.albedo = lobe.weight;
-        closure_keep(set, context, lobe);
+        closure_keep(set, context, lobe, lobe.weight);
     }
 }
 
@@ -238,9 +237,8 @@ fn closure_prepare_refraction(
         lobe.alpha_x = roughness * roughness;
         lobe.alpha_y = roughness * roughness;
         lobe.ior = closure_facing_ior(set.frame.backfacing, ior);
-        lobe.reflect_tint = Vec3::ZERO;
-        lobe.transmit_tint = splat3(1.0);
-        lobe.albedo = lobe.weight;
-        closure_keep(set, context, lobe);
+        lobe.reflects = 0.0;
+        lobe.tint = splat3(1.0);
+        closure_keep(set, context, lobe, lobe.weight);
     }
 }

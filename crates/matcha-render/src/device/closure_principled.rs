@@ -256,11 +256,11 @@ fn principled_metal(
         let base_color = principled_color(rows, PRINCIPLED_ROW_BASE_COLOR);
         lobe.fresnel = FRESNEL_F82;
         lobe.f0 = min3(base_color, splat3(1.0));
-        lobe.extra = fresnel_f82_coefficient(lobe.f0, min3(edge, splat3(1.0)));
+        lobe.tint = fresnel_f82_coefficient(lobe.f0, min3(edge, splat3(1.0)));
         let bounces = ClosureMultiple {
             wanted: multiple,
             both: false,
-            tint: fresnel_mean_f82(lobe.f0, lobe.extra),
+            tint: fresnel_mean_f82(lobe.f0, lobe.tint),
         };
         let _reflected = closure_keep_fresnel(set, tables, context, lobe, bounces);
     }
@@ -290,10 +290,10 @@ fn principled_transmission(
         let f0 = principled_color(rows, PRINCIPLED_ROW_SPECULAR_TINT) * fresnel_f0(ior);
         let backfacing = set.frame.backfacing;
         closure_glass_sides(&mut lobe, backfacing, context, ior, f0, color);
-        let tint = if closure_black(lobe.transmit_tint) {
+        let tint = if closure_black(lobe.tint) {
             closure_mean_remapped(lobe.ior, lobe.f0)
         } else {
-            lobe.transmit_tint
+            lobe.tint
         };
         let bounces = ClosureMultiple {
             wanted: multiple,

@@ -4,6 +4,7 @@ use glam::Vec3;
 use matcha_shade::device::math::{MAX, abs, clamp, dot, max};
 
 use super::closure_rows::closure_unit;
+use super::fresnel::FRESNEL_F82;
 use super::lobe::{
     ClosureFrame, ClosureLobe, LOBE_BECKMANN, LOBE_SINGULAR_ALPHA2, LOBE_SINGULAR_DENSITY,
     LOBE_TRANSLUCENT, SCATTER_TRANSMIT, SCATTER_TRANSPARENT, lobe_eval, lobe_sample,
@@ -36,6 +37,8 @@ pub struct LobeSet {
     pub transmits: bool,
     /// Some lobe is not perfectly sharp.
     pub spreads: bool,
+    /// Sum of the lobes' estimated weight × reflectance.
+    pub albedo: Vec3,
     /// Emitted radiance towards `wo`, W·sr⁻¹·m⁻²; of a world, its radiance.
     pub emission: Vec3,
     /// Fraction of light that passes straight through.
@@ -105,6 +108,7 @@ pub fn closure_set_begin(set: &mut LobeSet, frame: ClosureFrame) {
     set.through = 0.0;
     set.transmits = false;
     set.spreads = false;
+    set.albedo = Vec3::ZERO;
     set.emission = Vec3::ZERO;
     set.transparency = Vec3::ZERO;
     set.holdout = Vec3::ZERO;
@@ -114,7 +118,8 @@ pub fn closure_set_begin(set: &mut LobeSet, frame: ClosureFrame) {
 /// Whether a lobe lets light through.
 #[inline(always)]
 pub fn lobe_transmits(lobe: ClosureLobe) -> bool {
-    lobe.kind == LOBE_TRANSLUCENT || !closure_black(lobe.transmit_tint)
+    let tinted = lobe.kind > LOBE_TRANSLUCENT && lobe.fresnel != FRESNEL_F82;
+    lobe.kind == LOBE_TRANSLUCENT || tinted && !closure_black(lobe.tint)
 }
 
 /// Whether a lobe's value can be other than zero: it is not perfectly sharp.
@@ -124,15 +129,16 @@ pub fn lobe_spreads(lobe: ClosureLobe) -> bool {
     !microfacet || lobe.alpha_x * lobe.alpha_y > LOBE_SINGULAR_ALPHA2
 }
 
-/// Adds a lobe.
+/// Adds a lobe; `albedo` is an estimate of its weight × reflectance.
 #[inline]
-pub fn closure_set_push(set: &mut LobeSet, lobe: ClosureLobe) {
+pub fn closure_set_push(set: &mut LobeSet, lobe: ClosureLobe, albedo: Vec3) {
     if set.count >= CLOSURE_CAPACITY {
         set.dropped += 1;
     } else {
         set.lobes[set.count as usize] = lobe;
         set.count += 1;
         set.sum += lobe.sample_weight;
+        set.albedo += albedo;
         set.transmits = set.transmits || lobe_transmits(lobe);
         set.spreads = set.spreads || lobe_spreads(lobe);
     }
@@ -168,15 +174,9 @@ pub fn closure_set_reflects_only(set: &LobeSet) -> bool {
 }
 
 /// Estimate of the reflectance and transmittance of all lobes, for the albedo layer.
-#[inline]
+#[inline(always)]
 pub fn closure_set_albedo(set: &LobeSet) -> Vec3 {
-    let mut sum = Vec3::ZERO;
-    let mut i = 0;
-    while i < set.count {
-        sum += set.lobes[i as usize].albedo;
-        i += 1;
-    }
-    sum
+    set.albedo
 }
 
 /// Mean normal of the lobes, unit; the shading normal where there is none.

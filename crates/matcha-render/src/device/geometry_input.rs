@@ -1,4 +1,6 @@
 //! Quantities of a point by their packed codes, from the arrays of [`GeometryView`].
+// Device code has no methods.
+#![allow(clippy::manual_range_contains)]
 
 use crate::device::geometry_view::{
     GEOMETRY_NONE, GeometryView, geometry_corners, geometry_material, geometry_triangle,

@@ -8,8 +8,7 @@ use super::lobe_ashikhmin::{
     lobe_ashikhmin_eval, lobe_ashikhmin_sample, lobe_velvet_eval, lobe_velvet_sample,
 };
 use super::lobe_microfacet::{lobe_microfacet_eval, lobe_microfacet_sample};
-use super::lobe_soft::{lobe_soft_eval, lobe_soft_sample};
-use super::shading_normal::shading_normal_shadow;
+use super::lobe_soft::{lobe_shadow, lobe_soft_eval, lobe_soft_sample};
 
 /// Lambert.
 pub const LOBE_DIFFUSE: u32 = 0;
@@ -46,21 +45,20 @@ pub const LOBE_SINGULAR_ALPHA2: f32 = 2.0e-10;
 /// Density that stands for a delta: so high that every other technique's weight vanishes.
 pub const LOBE_SINGULAR_DENSITY: f32 = 1.0e6;
 
-/// A lobe, ready to be evaluated for one `wo`.
+/// A lobe, ready to be evaluated for one `wo`. A set of them is a graphics device's largest
+/// private memory: fields are shared between kinds.
 #[derive(Clone, Copy, Debug)]
 pub struct ClosureLobe {
     /// One of the `LOBE_` constants.
     pub kind: u32,
     /// One of the `FRESNEL_` constants.
     pub fresnel: u32,
-    /// The normal differs from the surface's shading normal.
-    pub bent: bool,
+    /// 1; 0 where the lobe only refracts.
+    pub reflects: f32,
     /// Factor on the lobe.
     pub weight: Vec3,
     /// Share in sampling, not normalised.
     pub sample_weight: f32,
-    /// Estimate of weight × reflectance, for the albedo layer.
-    pub albedo: Vec3,
     /// Unit normal of the lobe.
     pub normal: Vec3,
     /// Unit vector across the normal: axis of `alpha_x`; for sheen, azimuth of `wo`.
@@ -75,12 +73,9 @@ pub struct ClosureLobe {
     pub energy: f32,
     /// Reflectance at normal incidence.
     pub f0: Vec3,
-    /// Edge coefficient of the F82 model; Oren–Nayar: multiple scattering but for wi.
-    pub extra: Vec3,
-    /// Factor on what is reflected; zero where the lobe only refracts.
-    pub reflect_tint: Vec3,
-    /// Factor on what is refracted; zero where the lobe only reflects.
-    pub transmit_tint: Vec3,
+    /// Factor on what is refracted, zero where the lobe only reflects; edge coefficient of
+    /// the F82 model; Oren–Nayar: multiple scattering but for wi.
+    pub tint: Vec3,
     /// Cosine between normal and wo.
     pub cos_wo: f32,
     /// Smith's Λ of wo; Oren–Nayar: A.
@@ -135,11 +130,7 @@ pub struct LobeSample {
 pub fn lobe_eval(lobe: ClosureLobe, frame: ClosureFrame, wi: Vec3) -> LobeValue {
     if lobe.kind <= LOBE_TRANSLUCENT {
         let soft = lobe_soft_eval(lobe, frame.wo, wi);
-        let shadow = if lobe.bent {
-            shading_normal_shadow(frame.n, lobe.normal, wi, frame.bump_correction)
-        } else {
-            1.0
-        };
+        let shadow = lobe_shadow(lobe, frame, wi);
         LobeValue {
             value: soft.value * shadow,
             pdf: soft.pdf,

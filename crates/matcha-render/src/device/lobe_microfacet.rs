@@ -40,7 +40,7 @@ pub struct LobeSides {
 #[inline(always)]
 pub fn lobe_sides(lobe: ClosureLobe, cos_h: f32) -> LobeSides {
     if lobe.fresnel == FRESNEL_F82 {
-        let reflect = fresnel_f82(abs(cos_h), lobe.f0, lobe.extra) * lobe.reflect_tint;
+        let reflect = fresnel_f82(abs(cos_h), lobe.f0, lobe.tint) * lobe.reflects;
         LobeSides {
             reflect,
             transmit: splat3(0.0),
@@ -55,9 +55,9 @@ pub fn lobe_sides(lobe: ClosureLobe, cos_h: f32) -> LobeSides {
         let remapped = lobe.f0 + (splat3(1.0) - lobe.f0) * s;
         let none = lobe.fresnel == FRESNEL_NONE;
         let r = select3(splat3(f), remapped, lobe.fresnel == FRESNEL_REMAPPED);
-        let reflect = select3(r, splat3(1.0), none) * lobe.reflect_tint;
+        let reflect = select3(r, splat3(1.0), none) * lobe.reflects;
         let open = splat3(select(1.0, 0.0, total));
-        let transmit = select3(splat3(1.0) - r, open, none) * lobe.transmit_tint;
+        let transmit = select3(splat3(1.0) - r, open, none) * lobe.tint;
         let sum_r = reflect.x + reflect.y + reflect.z;
         let sum_t = transmit.x + transmit.y + transmit.z;
         LobeSides {

@@ -37,6 +37,17 @@ pub fn lobe_soft_eval(lobe: ClosureLobe, wo: Vec3, wi: Vec3) -> LobeValue {
     }
 }
 
+/// Factor on a diffuse lobe whose normal is not the surface's shading normal.
+#[inline(always)]
+pub fn lobe_shadow(lobe: ClosureLobe, frame: ClosureFrame, wi: Vec3) -> f32 {
+    let n = lobe.normal;
+    if n.x != frame.n.x || n.y != frame.n.y || n.z != frame.n.z {
+        shading_normal_shadow(frame.n, n, wi, frame.bump_correction)
+    } else {
+        1.0
+    }
+}
+
 /// Samples a diffuse lobe.
 #[inline(always)]
 pub fn lobe_soft_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -> LobeSample {
@@ -53,11 +64,7 @@ pub fn lobe_soft_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -> Lobe
         lobe_sample_none()
     } else {
         let soft = lobe_soft_eval(lobe, frame.wo, wi);
-        let shadow = if lobe.bent {
-            shading_normal_shadow(frame.n, lobe.normal, wi, frame.bump_correction)
-        } else {
-            1.0
-        };
+        let shadow = lobe_shadow(lobe, frame, wi);
         LobeSample {
             wi,
             value: soft.value * shadow,
@@ -98,7 +105,7 @@ pub fn lobe_oren_nayar_intensity(lobe: ClosureLobe, wo: Vec3, wi: Vec3, cos_wi: 
     let s = dot(wi, wo) - cos_wi * cos_wo;
     let t = select(s, s / max(max(cos_wi, cos_wo), 1.0e-20), s > 0.0);
     let albedo = a * PI + b * lobe_oren_nayar_loss(cos_wi);
-    splat3(a + b * t) + lobe.extra * (1.0 - albedo)
+    splat3(a + b * t) + lobe.tint * (1.0 - albedo)
 }
 
 /// Density of the sheen's linearly transformed cosine, which is its value too (Zeltner,

@@ -2,6 +2,8 @@
 //!
 //! Texel (i, j) of a level covers [i, i+1) × [j, j+1) in units of texels with v up, so its centre
 //! is at i + 1/2, as in Cycles and OpenImageIO.
+// Device code has no methods.
+#![allow(clippy::manual_range_contains)]
 
 use glam::Vec2;
 use matcha_shade::device::math::{

@@ -55,7 +55,8 @@ impl FlatGeometry {
         flat
     }
 
-    pub(super) fn of_scene(scene: &Scene, tables: &SurfaceTables, camera: CameraView) -> Self {
+    /// All surfaces of a scene that has been prepared in parts; without inputs of programs.
+    pub fn of_scene(scene: &Scene, tables: &SurfaceTables, camera: CameraView) -> Self {
         let mut flat = Self {
             meshes: Vec::new(),
             instances: Vec::new(),

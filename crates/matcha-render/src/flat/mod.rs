@@ -7,12 +7,14 @@
 mod geometry;
 mod layers;
 mod programs;
+mod scene;
 #[cfg(test)]
 mod tests;
 mod texture;
 
 pub use geometry::FlatGeometry;
 pub use programs::FlatPrograms;
+pub use scene::{FlatScene, NO_PROGRAM};
 pub use texture::FlatTextures;
 
 /// Words of a view's field: its name in translated device code, and what is in it.

@@ -1,24 +1,22 @@
 //! What devices read from the arrays is what the processor finds in the scene.
 
 use super::*;
-use crate::accel::Hit;
 use crate::camera::prepare;
 use crate::device::geometry_input::{geometry_background, geometry_input};
 use crate::device::geometry_view::{geometry_material, geometry_point};
 use crate::device::texture_view::{TextureColor, texture_sample};
-use crate::scene::{AlphaMode, Camera, ColorSpace, Image, Pixels, Scene};
-use crate::surface::{PathInfo, SurfaceTables, View, fill_background};
+use crate::scene::{AlphaMode, Camera, ColorSpace, Scene};
+use crate::surface::{SurfaceTables, View, fill_background};
 use crate::texture::TextureSet;
-use glam::{Vec2, Vec3, vec2};
+use glam::{Vec2, vec2};
 use matcha_shade::graph::{AlphaHandling, Interpolation, TextureRef};
-use matcha_shade::input::{Input, InputKind, Part};
+use matcha_shade::input::InputKind;
 use matcha_shade::rows::Rows;
 use matcha_shade::source::Extension;
 use matcha_shade::vm::Textures;
-use std::sync::Arc;
 
 mod fixture;
-use fixture::{Random, all_kinds, image, scene};
+use fixture::{Random, all_kinds, hit, image, images, looks, path, scene};
 
 fn prepared(scene: &Scene) -> (SurfaceTables, FlatGeometry) {
     let camera = prepare(&Camera::default(), [200, 100], 1.0);
@@ -30,33 +28,6 @@ fn prepared(scene: &Scene) -> (SurfaceTables, FlatGeometry) {
     );
     let flat = FlatGeometry::of_scene(scene, &tables, view);
     (tables, flat)
-}
-
-fn path(random: &mut Random) -> PathInfo {
-    PathInfo {
-        direction: random.direction(),
-        flags: random.next() & 0xff,
-        cone_width: random.unit() * 0.1,
-        cone_spread: random.unit() * 0.1,
-        ray_length: random.unit() * 5.0,
-        bounce: random.next() & 7,
-        transparent: random.next() & 3,
-        ..PathInfo::default()
-    }
-}
-
-fn hit(random: &mut Random, scene: &Scene) -> Hit {
-    let instance = random.next() % scene.instances.len() as u32;
-    let mesh = &scene.meshes[scene.instances[instance as usize].mesh as usize];
-    let (u, v) = (random.unit(), random.unit());
-    let inside = u + v <= 1.0;
-    Hit {
-        instance,
-        primitive: random.next() % mesh.indices.len() as u32,
-        t: random.unit() * 10.0,
-        u: if inside { u } else { 1.0 - u },
-        v: if inside { v } else { 1.0 - v },
-    }
 }
 
 #[test]
@@ -129,39 +100,6 @@ fn a_missing_layer_is_none_and_a_shared_one_is_stored_once() {
     assert!(names.contains(&"GeometryView_positions") && names.contains(&"GeometryView_camera"));
 }
 
-fn looks() -> Vec<TextureRef> {
-    let mut looks = Vec::new();
-    for image in 0..7 {
-        for interpolation in [
-            Interpolation::Closest,
-            Interpolation::Linear,
-            Interpolation::Cubic,
-        ] {
-            for extension in [
-                Extension::Repeat,
-                Extension::Extend,
-                Extension::Clip,
-                Extension::Mirror,
-            ] {
-                for alpha in [
-                    AlphaHandling::Associated,
-                    AlphaHandling::Unassociated,
-                    AlphaHandling::Ignored,
-                ] {
-                    looks.push(TextureRef {
-                        image,
-                        interpolation,
-                        extension,
-                        alpha,
-                        no_footprint: image == 3,
-                    });
-                }
-            }
-        }
-    }
-    looks
-}
-
 fn sample(set: &TextureSet, look: TextureRef, uv: Vec2, a: Vec2, b: Vec2) -> [f32; 4] {
     let row = |x: f32| [x];
     let [u, v, au, av, bu, bv] = [uv.x, uv.y, a.x, a.y, b.x, b.y].map(row);
@@ -174,7 +112,7 @@ fn sample(set: &TextureSet, look: TextureRef, uv: Vec2, a: Vec2, b: Vec2) -> [f3
 
 #[test]
 fn textures_are_the_same_bits_but_for_the_exact_power() {
-    let images = fixture::images();
+    let images = images();
     let looks = looks();
     let set = TextureSet::build(&images, &looks);
     let flat = FlatTextures::of_set(&set, &looks);

@@ -26,10 +26,8 @@ impl FlatTextures {
         Self::of_set(&prepared.textures, looks)
     }
 
-    pub(super) fn of_set<'t>(
-        set: &TextureSet,
-        looks: impl IntoIterator<Item = &'t TextureRef>,
-    ) -> Self {
+    /// Images that have been prepared alone.
+    pub fn of_set<'t>(set: &TextureSet, looks: impl IntoIterator<Item = &'t TextureRef>) -> Self {
         let mut flat = Self::default();
         let mut known: HashMap<u32, u32> = HashMap::new();
         for look in looks {

@@ -1,5 +1,7 @@
 //! Codes of the quantities that programs read of a point, and how an input is packed into a
 //! word: [`crate::input::Input::packed`] makes it on the processor, devices take it apart.
+// Device code has no methods.
+#![allow(clippy::manual_range_contains)]
 
 /// UV set, by name.
 pub const INPUT_UV: u32 = 0;

@@ -66,6 +66,13 @@ impl Program {
             self.verify_region(region, &mut defined)?;
             at = region.words.end;
         }
+        defined[..self.input_rows].fill(false);
+        for &row in &self.loads {
+            match defined[..self.input_rows].get_mut(row as usize) {
+                Some(slot) => *slot = true,
+                None => return Err(invalid(at, "loads an input that does not exist")),
+            }
+        }
         for index in at..self.words.len() {
             let word = self
                 .words
@@ -233,6 +240,8 @@ mod tests {
         assert!(problem_after(|p| p.words[3].src[11] = 1).contains("unused operand"));
         assert!(problem_after(|p| p.outputs[0] = many).contains("nothing wrote"));
         assert!(problem_after(|p| p.constants.push(1.0)).contains("constants"));
+        assert!(problem_after(|p| p.loads.truncate(1)).contains("nothing wrote"));
+        assert!(problem_after(|p| p.loads.push(many)).contains("does not exist"));
     }
 
     #[test]

@@ -2,6 +2,8 @@
 //! table, and functions of every module, at thousands of random points.
 
 mod adapter;
+mod closure_probes;
+mod closures;
 mod memory;
 mod memory_probes;
 mod points;

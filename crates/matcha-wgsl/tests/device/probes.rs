@@ -188,10 +188,9 @@ pub fn probe_closure(w: [u32; 13], kind: u32) -> ClosureLobe {
     ClosureLobe {
         kind,
         fresnel: w[12] & 3,
-        bent: (w[12] & 4) != 0,
+        reflects: 1.0,
         weight: splat3(1.0),
         sample_weight: 1.0,
-        albedo: splat3(1.0),
         normal,
         tangent: vec3(1.0, 0.0, 0.0),
         alpha_x,
@@ -199,9 +198,7 @@ pub fn probe_closure(w: [u32; 13], kind: u32) -> ClosureLobe {
         ior: 1.45,
         energy: 1.0,
         f0: vec3(0.04, 0.5, 0.9),
-        extra: vec3(0.1, 0.2, 0.3),
-        reflect_tint: splat3(1.0),
-        transmit_tint: splat3(0.5),
+        tint: vec3(0.1, 0.2, 0.5),
         cos_wo: wo.z,
         lambda_wo: 0.3,
     }
@@ -210,10 +207,15 @@ pub fn probe_closure(w: [u32; 13], kind: u32) -> ClosureLobe {
 /// Value and density of a closure for a pair of directions, and its sample.
 pub fn probe_lobe(w: [u32; 13], kind: u32) -> [u32; 4] {
     let lobe = probe_closure(w, kind);
-    let n = vec3(0.0, 0.0, 1.0);
+    let ng = vec3(0.0, 0.0, 1.0);
+    let bent = (w[12] & 4) != 0;
     let frame = ClosureFrame {
-        n,
-        ng: n,
+        n: if bent {
+            normalize(vec3(0.2, 0.1, 1.0))
+        } else {
+            ng
+        },
+        ng,
         wo: normalize(abs3(probe_triple(w, 0)) + vec3(0.0, 0.0, 0.1)),
         backfacing: false,
         bump_correction: (w[12] & 8) != 0,

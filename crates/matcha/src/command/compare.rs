@@ -3,6 +3,7 @@
 use super::report::Report;
 use crate::End;
 use crate::arguments::{Cache, CompareArguments};
+use crate::device::Device;
 use crate::output;
 use crate::picture::figure::{self, Panel};
 use crate::picture::{difference, exr_file, heat, png_file};
@@ -10,7 +11,6 @@ use crate::session::{self, FullStatistics, Loaded};
 use anyhow::{Context, Result};
 use image::RgbImage;
 use matcha_render::backend::Backend;
-use matcha_render::cpu::CpuBackend;
 use serde::Serialize;
 
 /// Both renderings' statistics.
@@ -25,27 +25,25 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<End> {
     if let Some(stats) = &arguments.options.stats {
         output::check_file(stats)?;
     }
+    let device = Device::choose(&arguments.options)?;
     let loaded = Loaded::new(&arguments.scene, &arguments.options)?;
-    let mut without = loaded.backend(&arguments.options, Cache::Off)?;
-    let mut with = loaded.backend(&arguments.options, arguments.cache)?;
-    let complete = session::render(&loaded, &mut [&mut without, &mut with])?;
-    let shown = Shown::new(&loaded, &without, &with)?;
-    let report = Report::new(&loaded, &without, &with, [&shown.without, &shown.with]);
-    write_all(arguments, &shown, &report, [&without, &with])?;
+    let caches = [Cache::Off, arguments.cache];
+    let mut backends = loaded.backends(&device, &arguments.options, caches)?;
+    let outcome = session::render(&loaded, &mut backends)?;
+    let [without, with] = backends.each_ref().map(AsRef::as_ref);
+    let shown = Shown::new(&loaded, without, with)?;
+    let report = Report::new(&loaded, without, with, [&shown.without, &shown.with]);
+    write_all(arguments, &shown, &report, [without, with])?;
     if let Some(stats) = &arguments.options.stats {
         let both = BothStatistics {
-            without: FullStatistics::of(&loaded, &without),
-            with: FullStatistics::of(&loaded, &with),
+            without: FullStatistics::of(&loaded, without),
+            with: FullStatistics::of(&loaded, with),
         };
         output::write_json(stats, &both)?;
     }
     println!("{}", report.summary());
     println!("pictures and report are in {}", arguments.output.display());
-    Ok(if complete {
-        End::Done
-    } else {
-        End::Interrupted
-    })
+    outcome.end(&arguments.output)
 }
 
 /// The pictures as people see them.
@@ -57,9 +55,9 @@ struct Shown {
 }
 
 impl Shown {
-    fn new(loaded: &Loaded, without: &CpuBackend, with: &CpuBackend) -> Result<Self> {
+    fn new(loaded: &Loaded, without: &dyn Backend, with: &dyn Backend) -> Result<Self> {
         let [width, height] = loaded.resolution();
-        let show = |backend: &CpuBackend| {
+        let show = |backend: &dyn Backend| {
             let bytes = loaded.view.bytes(&backend.film().combined());
             RgbImage::from_raw(width, height, bytes).context("the film is smaller than its picture")
         };
@@ -93,7 +91,7 @@ fn write_all(
     arguments: &CompareArguments,
     shown: &Shown,
     report: &Report,
-    [without, with]: [&CpuBackend; 2],
+    [without, with]: [&dyn Backend; 2],
 ) -> Result<()> {
     let path = |name: &str| arguments.output.join(name);
     output::write(&path("without.exr"), &exr_file::encode(without.film())?)?;

@@ -4,6 +4,7 @@ use super::inspect_dot;
 use crate::End;
 use crate::arguments::InspectArguments;
 use crate::loading;
+use crate::output;
 use anyhow::{Result, bail};
 use matcha_render::scene::{Material, Scene, Shader};
 use matcha_shade::cacheability;
@@ -14,7 +15,6 @@ use matcha_shade::material::{LowerReport, MaterialGraph, MaterialKind, Substitut
 use matcha_shade::nodes::{Names, lower, lower_gltf};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::io::Write;
 
 pub(crate) fn run(arguments: &InspectArguments) -> Result<End> {
     let scene = loading::load_scene(&arguments.scene)?;
@@ -25,16 +25,16 @@ pub(crate) fn run(arguments: &InspectArguments) -> Result<End> {
         let compiled = compile(&graph, &Options::default())
             .map_err(|error| anyhow::anyhow!("material \"{}\": {error}", material.name))?;
         if arguments.dot {
-            print(&inspect_dot::draw(&material.name, &compiled))?;
+            output::print(&inspect_dot::draw(&material.name, &compiled))?;
             return Ok(End::Done);
         }
         let nodes = source_nodes(&scene, material);
         entries.push(Entry::new(&material.name, nodes, &compiled, &substituted));
     }
     if arguments.json {
-        print(&(serde_json::to_string_pretty(&entries)? + "\n"))?;
+        output::print(&(serde_json::to_string_pretty(&entries)? + "\n"))?;
     } else {
-        print(
+        output::print(
             &entries
                 .iter()
                 .map(Entry::text)
@@ -43,14 +43,6 @@ pub(crate) fn run(arguments: &InspectArguments) -> Result<End> {
         )?;
     }
     Ok(End::Done)
-}
-
-/// Writes to standard output; a closed pipe is no error.
-fn print(text: &str) -> Result<()> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(()),
-    }
 }
 
 fn choose<'a>(scene: &'a Scene, name: Option<&str>) -> Result<Vec<&'a Material>> {

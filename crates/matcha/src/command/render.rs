@@ -2,11 +2,11 @@
 
 use crate::End;
 use crate::arguments::RenderArguments;
+use crate::device::Device;
 use crate::output::{self, Format};
 use crate::picture::{exr_file, png_file};
 use crate::session::{self, FullStatistics, Loaded};
 use anyhow::Result;
-use matcha_render::backend::Backend;
 use matcha_render::film::Film;
 
 pub(crate) fn run(arguments: &RenderArguments) -> Result<End> {
@@ -15,13 +15,15 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<End> {
     if let Some(stats) = &arguments.options.stats {
         output::check_file(stats)?;
     }
+    let device = Device::choose(&arguments.options)?;
     let loaded = Loaded::new(&arguments.scene, &arguments.options)?;
-    let mut backend = loaded.backend(&arguments.options, arguments.cache)?;
-    let complete = session::render(&loaded, &mut [&mut backend])?;
+    let mut backends = loaded.backends(&device, &arguments.options, [arguments.cache])?;
+    let outcome = session::render(&loaded, &mut backends)?;
+    let [backend] = &backends;
     let bytes = encode(backend.film(), format, &loaded)?;
     output::write(&arguments.output, &bytes)?;
     if let Some(stats) = &arguments.options.stats {
-        output::write_json(stats, &FullStatistics::of(&loaded, &backend))?;
+        output::write_json(stats, &FullStatistics::of(&loaded, backend.as_ref()))?;
     }
     let statistics = backend.statistics();
     println!(
@@ -31,11 +33,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<End> {
         statistics.seconds,
         backend.device()
     );
-    Ok(if complete {
-        End::Done
-    } else {
-        End::Interrupted
-    })
+    outcome.end(&arguments.output)
 }
 
 fn encode(film: &Film, format: Format, loaded: &Loaded) -> Result<Vec<u8>> {

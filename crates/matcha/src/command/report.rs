@@ -4,7 +4,6 @@ use crate::measure::{self, Error};
 use crate::session::Loaded;
 use image::RgbImage;
 use matcha_render::backend::{Backend, Statistics};
-use matcha_render::cpu::CpuBackend;
 use serde::Serialize;
 
 /// `report.json`: its fields are the file's keys.
@@ -65,8 +64,8 @@ impl Report {
     /// From both renderings and what they look like, without the cache first.
     pub fn new(
         loaded: &Loaded,
-        without: &CpuBackend,
-        with: &CpuBackend,
+        without: &dyn Backend,
+        with: &dyn Backend,
         [shown_without, shown_with]: [&RgbImage; 2],
     ) -> Self {
         let (before, after) = (without.statistics(), with.statistics());

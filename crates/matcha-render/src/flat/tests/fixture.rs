@@ -1,8 +1,16 @@
-//! A scene in which every kind of layer is there, and is missing.
+//! For tests, those of matcha-gpu too: a scene in which every kind of layer is there, and is missing.
 
-use super::*;
-use crate::scene::{Instance, Material, Mesh, MeshAttribute, Shader, UvSet, Visibility};
-use glam::{Affine3A, Quat, Vec4};
+use crate::accel::Hit;
+use crate::scene::{
+    AlphaMode, ColorSpace, Image, Instance, Material, Mesh, MeshAttribute, Pixels, Scene, Shader,
+    UvSet, Visibility,
+};
+use crate::surface::PathInfo;
+use glam::{Affine3A, Quat, Vec3, Vec4};
+use matcha_shade::graph::{AlphaHandling, Interpolation, TextureRef};
+use matcha_shade::input::{Input, InputKind, Part};
+use matcha_shade::source::Extension;
+use std::sync::Arc;
 
 /// A small generator (Wellons 2018: lowbias32 of a counter).
 pub struct Random(pub u32);
@@ -26,6 +34,35 @@ impl Random {
 
     pub fn direction(&mut self) -> Vec3 {
         self.vector().try_normalize().unwrap_or(Vec3::Z)
+    }
+}
+
+/// A path of which everything is at random.
+pub fn path(random: &mut Random) -> PathInfo {
+    PathInfo {
+        direction: random.direction(),
+        flags: random.next() & 0xff,
+        cone_width: random.unit() * 0.1,
+        cone_spread: random.unit() * 0.1,
+        ray_length: random.unit() * 5.0,
+        bounce: random.next() & 7,
+        transparent: random.next() & 3,
+        ..PathInfo::default()
+    }
+}
+
+/// A hit somewhere on a scene.
+pub fn hit(random: &mut Random, scene: &Scene) -> Hit {
+    let instance = random.next() % scene.instances.len() as u32;
+    let mesh = &scene.meshes[scene.instances[instance as usize].mesh as usize];
+    let (u, v) = (random.unit(), random.unit());
+    let inside = u + v <= 1.0;
+    Hit {
+        instance,
+        primitive: random.next() % mesh.indices.len() as u32,
+        t: random.unit() * 10.0,
+        u: if inside { u } else { 1.0 - u },
+        v: if inside { v } else { 1.0 - v },
     }
 }
 
@@ -202,4 +239,38 @@ pub fn images() -> Vec<Image> {
             ..image(7, 11, ColorSpace::LinearRec709, AlphaMode::Straight)
         },
     ]
+}
+
+/// Look-ups of these images, and of one that is not there, in all ways.
+pub fn looks() -> Vec<TextureRef> {
+    let mut looks = Vec::new();
+    for image in 0..7 {
+        for interpolation in [
+            Interpolation::Closest,
+            Interpolation::Linear,
+            Interpolation::Cubic,
+        ] {
+            for extension in [
+                Extension::Repeat,
+                Extension::Extend,
+                Extension::Clip,
+                Extension::Mirror,
+            ] {
+                for alpha in [
+                    AlphaHandling::Associated,
+                    AlphaHandling::Unassociated,
+                    AlphaHandling::Ignored,
+                ] {
+                    looks.push(TextureRef {
+                        image,
+                        interpolation,
+                        extension,
+                        alpha,
+                        no_footprint: image == 3,
+                    });
+                }
+            }
+        }
+    }
+    looks
 }

@@ -1,0 +1,204 @@
+//! Paths in waves: every stage is a kernel over all paths in flight.
+//!
+//! A *slot* carries one path at a time. It belongs to one pixel and to every n-th of its samples,
+//! and has sums of its own, so that a picture does not depend on the order in which the device
+//! works on slots. Stages append slots to queues; the next stage is dispatched over what is in its
+//! queue, without the host knowing how much that is.
+
+mod scene;
+mod stages;
+mod state;
+mod table;
+mod totals;
+
+pub use totals::WavefrontStatistics;
+
+use crate::backend::{GpuOptions, MaterialStage};
+use crate::batch::Runner;
+use crate::device::Device;
+use crate::error::GpuError;
+use crate::machine::switch;
+use crate::memory::Memory;
+use crate::pipeline::Pipelines;
+use crate::shader::Library;
+use matcha_render::backend::{CacheMode, Control, RenderOptions};
+use matcha_render::film::Film;
+use matcha_render::flat::FlatScene;
+use matcha_render::prepare::Prepared;
+use stages::{Form, Kernels};
+use state::{Part, SlotMemory};
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use totals::Totals;
+
+/// A dispatch should not be longer, so that a desktop stays usable and no watchdog fires.
+const LONGEST_DISPATCH: Duration = Duration::from_millis(100);
+
+/// A scene on a device, with paths in flight.
+pub struct Wavefront {
+    runner: Runner,
+    scene: Memory,
+    table: Option<Memory>,
+    slots: SlotMemory,
+    kernels: Kernels,
+    form: Form,
+    /// Slots that are in use: fewer than there are where dispatches would take too long.
+    in_use: u32,
+    width: u32,
+    totals: Totals,
+    time: Duration,
+}
+
+impl Wavefront {
+    /// Puts a scene on the device and makes the kernels.
+    ///
+    /// # Errors
+    /// If the device has no memory for it, or refuses a kernel.
+    pub fn new(
+        device: &Device,
+        pipelines: &Pipelines,
+        prepared: &Arc<Prepared>,
+        options: &RenderOptions,
+        gpu: &GpuOptions,
+    ) -> Result<Wavefront, GpuError> {
+        let cached = options.cache != CacheMode::Off;
+        let invalid = |message: String| GpuError::Invalid {
+            what: "the scene".to_owned(),
+            message,
+        };
+        let programs = prepared
+            .programs(cached)
+            .map_err(|error| invalid(error.to_string()))?;
+        let flat = FlatScene::new(prepared, &programs);
+        let mut library = Library::embedded(device.has_atomics_64())?;
+        library.add(
+            "the scene's operations",
+            &switch(flat.programs().operations()),
+        )?;
+        library.set_constant("MACHINE_REGISTERS", registers(flat.programs().registers()))?;
+        let table = table::place(device, &library, &options.cache, &flat)?;
+        let tables: Vec<&Memory> = table.iter().collect();
+        let scene = scene::place(device, &mut library, prepared, &flat, &tables)?;
+        let seed = options.seed.unwrap_or(prepared.scene().settings.seed);
+        let [width, height] = prepared.resolution();
+        let mut others = tables.clone();
+        others.push(&scene);
+        let offset = table::level_offset(&options.cache);
+        let setting = state::Setting {
+            seed,
+            offset,
+            pixels: width * height,
+        };
+        let slots = SlotMemory::place(device, &library, &flat, &setting, &others)?;
+        let form = Form {
+            cached: table.is_some(),
+            inline: gpu.material_stage == MaterialStage::Inline,
+            world: flat.world_program().is_some(),
+            light_programs: flat.has_light_programs(),
+            transparent: flat.has_transparent_shadows(),
+            layers: flat.rules().transparent_bounces + 1,
+        };
+        let kernels = Kernels::new(
+            pipelines,
+            &library,
+            &scene,
+            slots.memory(),
+            table.as_ref(),
+            &form,
+        )?;
+        Ok(Wavefront {
+            runner: Runner::new(device)?,
+            in_use: slots.capacity(),
+            scene,
+            table,
+            slots,
+            kernels,
+            form,
+            width,
+            totals: Totals::default(),
+            time: Duration::ZERO,
+        })
+    }
+
+    /// Adds samples `range` of every pixel to the film and to `control`; returns early
+    /// when that asks to stop.
+    ///
+    /// # Errors
+    /// If the device fails; the film keeps what it has.
+    pub fn render(
+        &mut self,
+        range: Range<u32>,
+        control: &Control,
+        film: &mut Film,
+    ) -> Result<(), GpuError> {
+        let start = Instant::now();
+        let pixels = film.width() * film.height();
+        let mut first = 0;
+        while first < pixels && !range.is_empty() {
+            let part = Part::new(first, pixels, self.in_use, self.width, &range);
+            self.render_part(&part, control)?;
+            self.slots.add_to(film, &part, control)?;
+            if control.stopped() {
+                break;
+            }
+            first += part.pixels;
+        }
+        self.time += start.elapsed();
+        Ok(())
+    }
+
+    /// Renders all samples of a part of the picture into its slots.
+    fn render_part(&mut self, part: &Part, control: &Control) -> Result<(), GpuError> {
+        let mut part = part.clone();
+        self.slots.reset(&mut self.runner, &part)?;
+        loop {
+            if control.stopped() {
+                // What is in flight is left; samples that are done count.
+                part.end = part.first_sample;
+            }
+            let mut wave = stages::Wave {
+                runner: &mut self.runner,
+                scene: &self.scene,
+                table: self.table.as_ref(),
+                slots: &self.slots,
+                kernels: &self.kernels,
+                form: &self.form,
+            };
+            let longest = wave.run(&part)?;
+            let counts = self.slots.take_counts()?;
+            self.totals.add(&counts);
+            self.adapt(longest);
+            if counts.active == 0 || control.stopped() {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Takes fewer slots for the next part if dispatches took too long.
+    fn adapt(&mut self, longest: Duration) {
+        if longest > LONGEST_DISPATCH {
+            self.in_use = (self.in_use / 2).max(SlotMemory::FEWEST);
+        } else if longest < LONGEST_DISPATCH / 4 {
+            self.in_use = (self.in_use * 2).min(self.slots.capacity());
+        }
+    }
+
+    /// Totals so far.
+    pub fn statistics(&self) -> WavefrontStatistics {
+        let counts = self.table.as_ref().map(table::read_counts);
+        self.totals
+            .statistics(counts, self.runner.stage_seconds(), self.time)
+    }
+
+    /// Bytes of everything on the device but the cache's table.
+    pub fn bytes(&self) -> usize {
+        (self.scene.bytes() + self.slots.memory().bytes()) as usize
+    }
+}
+
+/// Registers that kernels are compiled for: a few sizes, so that kernels are the same for many
+/// scenes.
+fn registers(needed: usize) -> u32 {
+    (needed as u32).next_multiple_of(64).max(64)
+}

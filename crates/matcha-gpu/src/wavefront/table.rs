@@ -1,0 +1,103 @@
+//! The material cache's table in the device's memory: group 3.
+
+use crate::device::Device;
+use crate::error::GpuError;
+use crate::memory::{Memory, Sections};
+use crate::shader::Library;
+use matcha_cache::TableSize;
+use matcha_render::backend::{CacheMode, CacheStatistics};
+use matcha_render::flat::FlatScene;
+
+/// Number of the bind group.
+const GROUP: u32 = 3;
+/// Counters of the section `table_counts`: see `table.wgsl`.
+const COUNTS: u64 = 3;
+
+/// Places the table that a mode asks for, smaller if the device has no memory for it and nobody
+/// asked for the size; `None` where nothing is to be kept.
+pub(super) fn place(
+    device: &Device,
+    library: &Library,
+    mode: &CacheMode,
+    flat: &FlatScene,
+) -> Result<Option<Memory>, GpuError> {
+    let CacheMode::Paper { cells, entries, .. } = *mode else {
+        return Ok(None);
+    };
+    let asked = TableSize {
+        cells: cells.unwrap_or(TableSize::PAPER.cells),
+        entries: entries.unwrap_or(TableSize::PAPER.entries),
+    };
+    // A scene without cacheable nodes needs none, but kernels want to be bound to one.
+    let mut size = if flat.programs().regions() == 0 && cells.is_none() {
+        TableSize { cells: 1, ..asked }
+    } else {
+        asked
+    };
+    loop {
+        match place_size(device, library, size) {
+            Ok(memory) => {
+                if size != asked && flat.programs().regions() > 0 {
+                    tracing::warn!(
+                        "the material cache of {} × {} entries does not fit into the device's memory: {} cells are used",
+                        asked.cells,
+                        asked.entries,
+                        size.cells
+                    );
+                }
+                return Ok(Some(memory));
+            }
+            Err(GpuError::OutOfMemory { .. } | GpuError::Placement(_))
+                if cells.is_none() && size.cells > 1024 =>
+            {
+                size.cells /= 2;
+            }
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+fn place_size(device: &Device, library: &Library, size: TableSize) -> Result<Memory, GpuError> {
+    let capacity = size.capacity();
+    if size.cells > u64::from(u32::MAX) || capacity > u64::from(u32::MAX) {
+        return Err(GpuError::OutOfMemory {
+            what: "the material cache".to_owned(),
+            bytes: size.bytes(),
+        });
+    }
+    let mut sections = Sections::new();
+    sections.filled(library, "table_size", vec![size.cells as u32, size.entries])?;
+    sections.zeroed(library, "table_counts", COUNTS)?;
+    if device.has_atomics_64() {
+        sections.zeroed(library, "table_entries", capacity)?;
+    } else {
+        sections.zeroed(library, "table_fingerprints", capacity)?;
+        sections.zeroed(library, "table_values", capacity)?;
+    }
+    sections.place(device, GROUP, &[])
+}
+
+/// Added to the level of the virtual texture.
+pub(super) fn level_offset(mode: &CacheMode) -> f32 {
+    match *mode {
+        CacheMode::Paper { level_offset, .. } => level_offset,
+        CacheMode::Off => 0.0,
+    }
+}
+
+/// What became of insertions so far. A device that fails says so elsewhere.
+pub(super) fn read_counts(memory: &Memory) -> CacheStatistics {
+    let counts = memory.read("table_counts", 0, COUNTS).unwrap_or_default();
+    let count = |k: usize| u64::from(counts.get(k).copied().unwrap_or(0));
+    let entries = ["table_entries", "table_fingerprints"].map(|name| memory.length(name));
+    let capacity = entries.into_iter().flatten().next().unwrap_or(0);
+    CacheStatistics {
+        inserts: count(0),
+        refused: count(1),
+        races_lost: count(2),
+        occupied: count(0),
+        capacity,
+        bytes: 8 * capacity,
+        ..CacheStatistics::default()
+    }
+}
