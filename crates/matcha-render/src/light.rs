@@ -1,7 +1,8 @@
 //! Lights: a list of everything that shines, and next-event estimation over it.
 //!
-//! Local lights (emissive triangles, points, spots, areas) hang in one light tree. Suns and
-//! the world have shares of their own beside it. Everything that happens while rendering is
+//! Analytic lights, the emissive triangles of an instance together, and the world are groups.
+//! One group is drawn as Cycles' light tree would, and where it is an instance one of its
+//! triangles from a light tree of the instance. Everything that happens while rendering is
 //! device code over a [`LightView`]: `light_sample` and what it calls. This module collects
 //! the lights of a scene, and calls that code for the processor.
 //!
@@ -12,6 +13,7 @@
 
 mod analytic;
 mod escape;
+mod groups;
 mod tree;
 mod tree_build;
 mod tree_collapse;
@@ -26,6 +28,7 @@ pub use self::world::{WorldGrid, WorldMap, WorldRadiance, grid_direction, lumina
 pub use crate::device::light_view::{EmissiveTriangle, LightNode, LightOf, LightView};
 
 use self::escape::Distant;
+use self::groups::{Group, GroupTree};
 use self::visible::LightBvh;
 use crate::accel::visibility_mask;
 use crate::device::light_analytic::LIGHT_FAR;
@@ -37,7 +40,7 @@ use crate::device::light_sample::{
     LIGHT_EMITS_CONSTANT, LIGHT_EMITS_NOTHING, LIGHT_EMITS_SURFACE, LIGHT_EMITS_TREE,
     LIGHT_IS_ANALYTIC, LIGHT_IS_NONE, LIGHT_IS_TRIANGLE, LightDraw, LightEmission, light_sample,
 };
-use crate::device::light_view::{LIGHT_NONE, LightMaterial};
+use crate::device::light_view::{LIGHT_GROUP_IS_TREE, LIGHT_NONE, LightMaterial};
 use crate::device::light_visible::light_nearest;
 use crate::scene::Scene;
 use glam::{Vec2, Vec3};
@@ -174,8 +177,9 @@ pub struct LightSet {
     triangles: Triangles,
     materials: Vec<LightMaterial>,
     analytic: Vec<LightOf>,
+    groups: GroupTree,
+    world_slot: u32,
     tree: LightTree,
-    local: Vec<u32>,
     distant: Distant,
     bvh: LightBvh,
 }
@@ -188,45 +192,76 @@ impl LightSet {
         emission: Vec<Option<MaterialEmission>>,
         world: Option<WorldRadiance>,
     ) -> Self {
-        let mut analytic: Vec<LightOf> = scene
+        let analytic: Vec<LightOf> = scene
             .lights
             .iter()
             .zip(0..)
             .filter_map(|(l, i)| analytic::convert(l, i))
             .collect();
-        let limit = tree::MAX_EMITTERS - analytic.len().min(tree::MAX_EMITTERS);
-        let triangles = Triangles::collect(scene, &emission, limit);
-        let (suns, local): (Vec<u32>, Vec<u32>) = (0..analytic.len() as u32)
-            .partition(|&i| analytic::is_sun(&analytic[i as usize].shape));
-        for (&sun, place) in suns.iter().zip(0..) {
-            analytic[sun as usize].place = place;
-        }
-        for (&light, emitter) in local.iter().zip(triangles.list.len() as u32..) {
-            analytic[light as usize].place = emitter;
-        }
-        let bounds = local_bounds(&triangles, &emission, &analytic, &local);
+        let triangles = Triangles::collect(scene, &emission, tree::MAX_EMITTERS);
+        let is_sun = |&i: &u32| analytic::is_sun(&analytic[i as usize].shape);
+        let (suns, local): (Vec<u32>, Vec<u32>) = (0..analytic.len() as u32).partition(is_sun);
         let world = world.filter(|_| scene.world.importance_sample);
         let sees_world = u32::from(visibility_mask(&scene.world.visibility));
-        Self {
-            tree: LightTree::build(&bounds),
-            distant: Distant::new(&analytic, &suns, world, sees_world),
+        let distant = Distant::new(suns, world, sees_world);
+        let (tree, meshes) = hang_triangles(&triangles, &emission);
+        let mut set = Self {
             bvh: LightBvh::build(&analytic),
             materials: emission.iter().map(MaterialEmission::stored).collect(),
             triangles,
             analytic,
-            local,
+            tree,
+            distant,
+            ..Self::default()
+        };
+        set.build_groups(&local, &meshes);
+        set
+    }
+
+    /// Builds the tree of groups, and tells everything in it its slot.
+    fn build_groups(&mut self, local: &[u32], meshes: &[(u32, LightBounds)]) {
+        let of_light = |&i: &u32| analytic::group(&self.analytic[i as usize].shape, i);
+        let of_mesh =
+            |&(root, bounds): &(u32, LightBounds)| Group::boxed(bounds, LIGHT_GROUP_IS_TREE | root);
+        let near: Vec<Group> = local
+            .iter()
+            .map(of_light)
+            .chain(meshes.iter().map(of_mesh))
+            .collect();
+        let world = self.distant.world_irradiance().map(Group::world);
+        let far: Vec<Group> = self
+            .distant
+            .suns()
+            .iter()
+            .map(of_light)
+            .chain(world)
+            .collect();
+        self.groups = GroupTree::build(&near, &far);
+        let (of_near, of_far) = self.groups.slots.split_at(near.len());
+        let (of_local, of_meshes) = of_near.split_at(local.len());
+        let (of_suns, of_world) = of_far.split_at(self.distant.suns().len());
+        let lights = local.iter().chain(self.distant.suns());
+        for (&light, &slot) in lights.zip(of_local.iter().chain(of_suns)) {
+            self.analytic[light as usize].slot = slot;
         }
+        for (&(root, _), &slot) in meshes.iter().zip(of_meshes) {
+            self.tree.hang(root, slot);
+        }
+        self.world_slot = of_world.first().copied().unwrap_or(LIGHT_NONE);
     }
 
     /// The lights as device code reads them.
     #[inline(always)]
     pub fn view(&self) -> LightView<'_> {
         let [tree, triangles, bvh] = [self.tree.view(), self.triangles.view(), self.bvh.view()];
+        let groups = self.groups.view();
         LightView {
             nodes: tree.nodes,
             parents: tree.parents,
             slots: tree.slots,
-            root: tree.root,
+            groups: groups.groups,
+            group_parents: groups.group_parents,
+            world_slot: self.world_slot,
             triangles: triangles.triangles,
             first: triangles.first,
             of_primitive: triangles.of_primitive,
@@ -234,14 +269,13 @@ impl LightSet {
             order: bvh.order,
             materials: &self.materials,
             lights: &self.analytic,
-            local: &self.local,
             ..self.distant.view()
         }
     }
 
     /// True where nothing can be sampled.
     pub fn is_empty(&self) -> bool {
-        self.tree.is_empty() && self.distant.is_empty()
+        self.groups.is_empty()
     }
 
     /// Emissive triangles.
@@ -262,7 +296,7 @@ impl LightSet {
             + self.bvh.bytes()
             + size_of_val(&self.materials[..])
             + size_of_val(&self.analytic[..])
-            + size_of_val(&self.local[..])
+            + self.groups.bytes()
     }
 
     /// Samples a light and a direction to it. `u_select` and `u` are in [0, 1).
@@ -324,27 +358,37 @@ impl LightSet {
         wi: Vec3,
         kind: RayKind,
     ) -> impl Iterator<Item = LightHit> {
-        (0..self.distant.suns()).filter_map(move |k| {
+        (0..self.distant.suns().len() as u32).filter_map(move |k| {
             LightHit::new(&light_sun_met(self.view(), k, p, n, wi, kind.bit()))
         })
     }
 }
 
-/// Bounds of the emitters of the light tree in their order.
-fn local_bounds(
+/// A tree for the triangles of each instance; the trees' roots and bounds.
+fn hang_triangles(
     triangles: &Triangles,
     emission: &[Option<MaterialEmission>],
-    analytic: &[LightOf],
-    local: &[u32],
-) -> Vec<LightBounds> {
-    let of_triangles = triangles.list.iter().filter_map(|t| {
-        let emission = emission[t.material() as usize].as_ref()?;
-        Some(triangles::bounds(t, emission))
-    });
-    let of_lights = local
-        .iter()
-        .map(|&i| analytic::bounds(&analytic[i as usize].shape));
-    of_triangles.chain(of_lights).collect()
+) -> (LightTree, Vec<(u32, LightBounds)>) {
+    let mut tree = LightTree::default();
+    let of_instance = triangles.list.chunk_by(|a, b| a.instance == b.instance);
+    let meshes = of_instance
+        .map(|list| {
+            let bounds: Vec<LightBounds> = list
+                .iter()
+                .filter_map(|t| {
+                    let emission = emission[t.material() as usize].as_ref()?;
+                    Some(triangles::bounds(t, emission))
+                })
+                .collect();
+            let (root, mut all) = tree.add(&bounds);
+            if all.two_sided {
+                // Some normal or its opposite is near every direction.
+                (all.cos_normals, all.two_sided) = (-1.0, false);
+            }
+            (root, all)
+        })
+        .collect();
+    (tree, meshes)
 }
 
 #[cfg(test)]

@@ -32,13 +32,6 @@ pub fn light_sine(cosine: f32) -> f32 {
     sqrt(max(1.0 - cosine * cosine, 0.0))
 }
 
-/// cos(max(a − b, 0)) from the cosines of two angles from 0 to π.
-#[inline]
-pub fn light_cos_reduced(cos_a: f32, cos_b: f32) -> f32 {
-    let reduced = cos_a * cos_b + light_sine(cos_a) * light_sine(cos_b);
-    select(reduced, 1.0, cos_a >= cos_b)
-}
-
 /// Estimate of the irradiance that a cluster brings to the point `p` with unit normal `n`
 /// (zero where light from both sides counts). Zero only where it brings none.
 ///

@@ -1,17 +1,16 @@
 //! Densities with which `light_sample` finds what a ray meets, for multiple importance
 //! sampling: computed by the same code, from the same point `p` and normal `n`.
 
-use crate::device::light_analytic::{
-    LIGHT_FAR, LIGHT_SHARP_SUN, LIGHT_SUN, light_direction_pdf, light_sun_contains,
-};
+use crate::device::light_analytic::{LIGHT_FAR, light_direction_pdf, light_sun_contains};
+use crate::device::light_choice::light_group_probability;
 use crate::device::light_sample::{
     LIGHT_EMITS_NOTHING, LightEmission, light_emission, light_shines, light_triangle_normal,
 };
-use crate::device::light_shares::light_shares;
-use crate::device::light_sun::light_sun_probability;
-use crate::device::light_tree::light_tree_probability;
+use crate::device::light_tree::light_tree_climb;
 use crate::device::light_triangle::light_triangle_pdf;
-use crate::device::light_view::{LIGHT_IS_MET, LIGHT_MIRRORED, LIGHT_NONE, LightView};
+use crate::device::light_view::{
+    LIGHT_IS_MET, LIGHT_MIRRORED, LIGHT_NONE, LIGHT_WORLD_NONE, LightView,
+};
 use crate::device::light_visible::light_sees;
 use crate::device::light_world::light_world_pdf;
 use glam::Vec3;
@@ -53,26 +52,21 @@ pub fn light_pdf_triangle(
     if !light_shines(flags, light_triangle_normal(corners, surface), wi) {
         return 0.0;
     }
-    let chosen = light_shares(view, p, n).tree * light_tree_probability(view, emitter, p, n);
+    let climb = light_tree_climb(view, emitter, p, n);
+    if climb.probability <= 0.0 {
+        return 0.0;
+    }
+    let chosen = climb.probability * light_group_probability(view, climb.slot, p, n);
     chosen * light_triangle_pdf(corners, p, wi, distance)
 }
 
 /// Density with which `light_sample` finds the world in the unit direction `wi`.
 #[inline(always)]
 pub fn light_pdf_world(view: LightView, p: Vec3, n: Vec3, wi: Vec3) -> f32 {
-    light_shares(view, p, n).world * light_world_pdf(view, n, wi)
-}
-
-/// Probability with which `light_sample` draws an analytic light.
-#[inline(always)]
-pub fn light_probability(view: LightView, index: u32, p: Vec3, n: Vec3) -> f32 {
-    let shares = light_shares(view, p, n);
-    let kind = view.lights[index as usize].shape.kind;
-    let place = view.lights[index as usize].place;
-    if kind == LIGHT_SUN || kind == LIGHT_SHARP_SUN {
-        return shares.suns * light_sun_probability(view, place, n);
+    if view.world_kind == LIGHT_WORLD_NONE {
+        return 0.0;
     }
-    shares.tree * light_tree_probability(view, place, p, n)
+    light_group_probability(view, view.world_slot, p, n) * light_world_pdf(view, n, wi)
 }
 
 /// An analytic light on the way of a ray.
@@ -118,7 +112,8 @@ pub fn light_met(
     let shape = view.lights[index as usize].shape;
     met.emission = light_emission(&shape, view.lights[index as usize].tree, p, wi);
     if met.emission.kind != LIGHT_EMITS_NOTHING {
-        let chosen = light_probability(view, index, p, n);
+        let slot = view.lights[index as usize].slot;
+        let chosen = light_group_probability(view, slot, p, n);
         met.index = index;
         met.pdf = chosen * light_direction_pdf(&shape, p, n, wi, distance);
         met.max_bounces = view.lights[index as usize].max_bounces;
@@ -130,7 +125,7 @@ pub fn light_met(
 /// ray's `RAY_` bit, `p` and `n` belong to the last scattering.
 #[inline(always)]
 pub fn light_sun_met(view: LightView, k: u32, p: Vec3, n: Vec3, wi: Vec3, kind: u32) -> LightMet {
-    let index = view.suns[k as usize].index;
+    let index = view.suns[k as usize];
     // Unlike other lights, a sun without multiple importance is not even on camera.
     let is_met = (view.lights[index as usize].flags & LIGHT_IS_MET) != 0;
     if is_met && light_sees(view, index, kind) {

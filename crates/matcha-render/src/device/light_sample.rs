@@ -5,15 +5,13 @@
 use crate::device::light_analytic::{
     AnalyticLight, LIGHT_FAR, light_attenuation, light_direction_sample,
 };
-use crate::device::light_shares::{
-    LIGHT_SHARE_NONE, LIGHT_SHARE_TREE, LIGHT_SHARE_WORLD, light_choose_share, light_shares,
-};
-use crate::device::light_sun::light_choose_sun;
+use crate::device::light_choice::light_choose_group;
 use crate::device::light_tree::light_tree_sample;
 use crate::device::light_triangle::{LightTriangle, light_triangle_sample};
 use crate::device::light_view::{
-    LIGHT_BACK, LIGHT_CASTS_SHADOW, LIGHT_FRONT, LIGHT_IS_MET, LIGHT_MIRRORED, LIGHT_NONE,
-    LIGHT_UNIFORM, LIGHT_WORLD_CONSTANT, LightView,
+    LIGHT_BACK, LIGHT_CASTS_SHADOW, LIGHT_FRONT, LIGHT_GROUP_IS_LIGHT, LIGHT_GROUP_IS_TREE,
+    LIGHT_GROUP_WHAT, LIGHT_IS_MET, LIGHT_MIRRORED, LIGHT_NONE, LIGHT_UNIFORM,
+    LIGHT_WORLD_CONSTANT, LightView,
 };
 use crate::device::light_world::light_world_sample;
 use crate::device::ray_kind::RAY_ALL;
@@ -251,34 +249,22 @@ pub fn light_sample_world(view: LightView, n: Vec3, u: Vec2, chosen: f32) -> Lig
 /// where light from both sides counts. `select` and `u` are in [0, 1).
 #[inline(always)]
 pub fn light_sample(view: LightView, p: Vec3, n: Vec3, select: f32, u: Vec2) -> LightDraw {
-    let shares = light_shares(view, p, n);
-    let share = light_choose_share(shares, select);
-    if share.kind == LIGHT_SHARE_NONE {
+    let group = light_choose_group(view, p, n, select);
+    if group.link == LIGHT_NONE {
         return light_no_draw();
     }
-    if share.kind == LIGHT_SHARE_WORLD {
-        return light_sample_world(view, n, u, shares.world);
+    let what = group.link & LIGHT_GROUP_WHAT;
+    let index = group.link & !LIGHT_GROUP_WHAT;
+    if what == LIGHT_GROUP_IS_LIGHT {
+        return light_sample_analytic(view, index, p, n, u, group.probability);
     }
-    let index;
-    let chosen;
-    if share.kind == LIGHT_SHARE_TREE {
-        let local = light_tree_sample(view, p, n, share.place);
-        if !local.found {
+    if what == LIGHT_GROUP_IS_TREE {
+        let emitter = light_tree_sample(view, index, p, n, group.place);
+        if !emitter.found {
             return light_no_draw();
         }
-        chosen = shares.tree * local.probability;
-        let triangles = view.triangles.len() as u32;
-        if local.index < triangles {
-            return light_sample_triangle(view, local.index, p, u, chosen);
-        }
-        index = view.local[(local.index - triangles) as usize];
-    } else {
-        let sun = light_choose_sun(view, n, share.place);
-        if !sun.found {
-            return light_no_draw();
-        }
-        chosen = shares.suns * sun.probability;
-        index = sun.index;
+        let chosen = group.probability * emitter.probability;
+        return light_sample_triangle(view, emitter.index, p, u, chosen);
     }
-    light_sample_analytic(view, index, p, n, u, chosen)
+    light_sample_world(view, n, u, group.probability)
 }

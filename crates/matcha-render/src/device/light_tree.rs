@@ -1,4 +1,4 @@
-//! The light tree: all local lights in a tree of up to eight children a node, descended at
+//! Light trees: the emissive triangles of an instance in a tree of up to eight children a node, descended at
 //! random, each step towards a child that may matter more (Conty Estevez and Kulla 2018).
 //!
 //! Eight children in lanes: the importances of one node are one pass over arrays that a
@@ -8,7 +8,7 @@
 use crate::device::light_analytic::LIGHT_FAR;
 use crate::device::light_importance::{LightBounds, light_importance};
 use crate::device::light_view::{
-    LIGHT_LINK_EMITTER, LIGHT_LINK_INDEX, LIGHT_LINK_TWO_SIDED, LightView,
+    LIGHT_LINK_EMITTER, LIGHT_LINK_INDEX, LIGHT_LINK_TWO_SIDED, LIGHT_PARENT_GROUP, LightView,
 };
 use glam::Vec3;
 use matcha_shade::device::math::{clamp, vec3};
@@ -101,30 +101,27 @@ pub fn light_choose_child(importances: [f32; 8], target: f32) -> LightChild {
     child
 }
 
-/// A light that was drawn from several.
+/// An emitter that was drawn from a tree.
 #[derive(Clone, Copy, Debug)]
 pub struct LightChoice {
     /// False where none can reach the point.
     pub found: bool,
-    /// Which: an emitter of the tree, or an analytic light.
+    /// Which.
     pub index: u32,
     /// Probability of the choice.
     pub probability: f32,
 }
 
-/// Draws an emitter with `select` in [0, 1); none where the descent ends among lights that
-/// cannot reach the point.
+/// Draws an emitter below the node `root` with `select` in [0, 1); none where the descent ends
+/// among lights that cannot reach the point.
 #[inline(always)]
-pub fn light_tree_sample(view: LightView, p: Vec3, n: Vec3, select: f32) -> LightChoice {
+pub fn light_tree_sample(view: LightView, root: u32, p: Vec3, n: Vec3, select: f32) -> LightChoice {
     let mut choice = LightChoice {
         found: false,
         index: 0,
         probability: 1.0,
     };
-    if view.nodes.len() as u32 == 0 {
-        return choice;
-    }
-    let mut node = 0;
+    let mut node = root;
     let mut u = select;
     loop {
         let importances = light_importances(view, node, p, n);
@@ -149,44 +146,37 @@ pub fn light_tree_sample(view: LightView, p: Vec3, n: Vec3, select: f32) -> Ligh
     }
 }
 
-/// Probability with which [`light_tree_sample`] draws an emitter: upwards from its slot.
+/// A way from an emitter up to the root of its tree.
+#[derive(Clone, Copy, Debug)]
+pub struct LightClimb {
+    /// Probability with which [`light_tree_sample`] draws the emitter from the root.
+    pub probability: f32,
+    /// Slot of the tree in the groups.
+    pub slot: u32,
+}
+
+/// Climbs from an emitter's slot; ends early where the probability is 0.
 #[inline(always)]
-pub fn light_tree_probability(view: LightView, emitter: u32, p: Vec3, n: Vec3) -> f32 {
-    if emitter >= view.slots.len() as u32 {
-        return 0.0;
-    }
+pub fn light_tree_climb(view: LightView, emitter: u32, p: Vec3, n: Vec3) -> LightClimb {
+    let mut climb = LightClimb {
+        probability: 1.0,
+        slot: 0,
+    };
     let mut at = view.slots[emitter as usize];
-    let mut probability = 1.0;
     loop {
         let node = at / 8;
         let importances = light_importances(view, node, p, n);
         let sum = light_importance_sum(importances);
         let importance = importances[(at % 8) as usize];
         if !(sum > 0.0 && sum <= LIGHT_FAR) || importance == 0.0 {
-            return 0.0;
+            climb.probability = 0.0;
+            return climb;
         }
-        probability *= importance / sum;
-        if node == 0 {
-            return probability;
-        }
+        climb.probability *= importance / sum;
         at = view.parents[node as usize];
+        if (at & LIGHT_PARENT_GROUP) != 0 {
+            climb.slot = at & !LIGHT_PARENT_GROUP;
+            return climb;
+        }
     }
-}
-
-/// Importance of all emitters of the tree together.
-#[inline(always)]
-pub fn light_tree_importance(view: LightView, p: Vec3, n: Vec3) -> f32 {
-    if view.nodes.len() as u32 == 0 {
-        return 0.0;
-    }
-    let bounds = LightBounds {
-        low: view.root.low,
-        high: view.root.high,
-        axis: view.root.axis,
-        cos_normals: view.root.cos_normals,
-        cos_emission: view.root.cos_emission,
-        power: view.root.power,
-        two_sided: view.root.two_sided != 0,
-    };
-    light_importance(bounds, p, n)
 }

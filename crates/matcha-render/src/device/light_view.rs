@@ -14,7 +14,7 @@ pub const LIGHT_LINK_TWO_SIDED: u32 = 0x4000_0000;
 /// Bits of [`LightNode::link`] that hold the emitter or the node.
 pub const LIGHT_LINK_INDEX: u32 = 0x3fff_ffff;
 
-/// A node of the light tree: bounds and links of its eight children, 48 bytes each. An empty
+/// A node of a light tree: bounds and links of its eight children, 48 bytes each. An empty
 /// slot has no power.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C, align(64))]
@@ -46,25 +46,70 @@ pub struct LightNode {
     pub cosines: [u32; 8],
 }
 
-/// Bounds of all local lights together; see `LightBounds`.
-#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
+/// Bits of [`LightGroups::link`] that say what a group is; the others are an index.
+pub const LIGHT_GROUP_WHAT: u32 = 0xc000_0000;
+/// A block of groups.
+pub const LIGHT_GROUP_IS_BLOCK: u32 = 0;
+/// An analytic light.
+pub const LIGHT_GROUP_IS_LIGHT: u32 = 0x4000_0000;
+/// A tree of emissive triangles; the index is its root.
+pub const LIGHT_GROUP_IS_TREE: u32 = 0x8000_0000;
+/// The world.
+pub const LIGHT_GROUP_IS_WORLD: u32 = 0xc000_0000;
+
+/// Bit of [`LightGroups::flags`]: lane 0 is parted into lanes 2 and 3; twice as large: lane 1
+/// into lanes 4 and 5.
+pub const LIGHT_OPENS: u32 = 1;
+/// Bit of [`LightGroups::flags`]: some lane is a rectangle.
+pub const LIGHT_RECTANGLES: u32 = 4;
+
+/// A block of groups of lights, in eight lanes, of which the first six are used; see
+/// `light_choice`. Fields of a lane are those of `LightGroup`; an empty lane has no power.
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
-pub struct LightRoot {
-    /// Low corner of the box, metres.
-    pub low: Vec3,
-    /// High corner of the box, metres.
-    pub high: Vec3,
-    /// Unit axis of the cone of normals.
-    pub axis: Vec3,
-    /// Cosine of θo.
-    pub cos_normals: f32,
-    /// Cosine of θe.
-    pub cos_emission: f32,
-    /// Radiance times area, W·sr⁻¹.
-    pub power: f32,
-    /// 1: shines to both sides.
-    pub two_sided: u32,
+pub struct LightGroups {
+    /// Middles, metres: x.
+    pub center_x: [f32; 8],
+    /// Middles: y.
+    pub center_y: [f32; 8],
+    /// Middles: z.
+    pub center_z: [f32; 8],
+    /// Half diagonals or sides, metres: x.
+    pub half_x: [f32; 8],
+    /// Half diagonals or sides: y.
+    pub half_y: [f32; 8],
+    /// Half diagonals or sides: z.
+    pub half_z: [f32; 8],
+    /// Half the other sides, metres: x.
+    pub side_x: [f32; 8],
+    /// Half the other sides: y.
+    pub side_y: [f32; 8],
+    /// Half the other sides: z.
+    pub side_z: [f32; 8],
+    /// Unit axes of the cones of normals: x.
+    pub axis_x: [f32; 8],
+    /// Axes: y.
+    pub axis_y: [f32; 8],
+    /// Axes: z.
+    pub axis_z: [f32; 8],
+    /// Cosines of θo.
+    pub cos_normals: [f32; 8],
+    /// Cosines of θe.
+    pub cos_emission: [f32; 8],
+    /// Luminous intensity or irradiance, W·sr⁻¹ or W·m⁻².
+    pub power: [f32; 8],
+    /// `LIGHT_GROUP_` kinds of shapes.
+    pub kind: [u32; 8],
+    /// What the lanes are: `LIGHT_GROUP_IS_` and an index.
+    pub link: [u32; 8],
+    /// [`LIGHT_OPENS`], [`LIGHT_RECTANGLES`].
+    pub flags: u32,
+    /// Lane that is the world, or [`LIGHT_NONE`].
+    pub world: u32,
 }
+
+/// Bit of [`LightView::parents`]: the node is a root, and the rest its slot in the groups.
+pub const LIGHT_PARENT_GROUP: u32 = 0x8000_0000;
 
 /// Bit of [`EmissiveTriangle::surface`]: the instance mirrors its mesh.
 pub const LIGHT_MIRRORED: u32 = 0x8000_0000;
@@ -121,24 +166,10 @@ pub struct LightOf {
     pub visibility: u32,
     /// Bounces after which it still counts.
     pub max_bounces: u32,
-    /// Its emitter in the light tree; of a sun its place among the suns.
-    pub place: u32,
+    /// Its slot in the groups (8 · block + lane).
+    pub slot: u32,
     /// Geometry and radiance.
     pub shape: AnalyticLight,
-}
-
-/// A light at infinity.
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-#[repr(C)]
-pub struct LightSun {
-    /// Index into [`LightView::lights`].
-    pub index: u32,
-    /// Unit direction to its middle.
-    pub towards: Vec3,
-    /// Cosine of its half angle.
-    pub cos_half: f32,
-    /// Luminous irradiance on a surface that faces it.
-    pub irradiance: f32,
 }
 
 /// A node of the hierarchy over the analytic lights with a shape.
@@ -164,13 +195,17 @@ pub const LIGHT_WORLD_MAP: u32 = 2;
 
 /// All lights. Functions over the view are always inlined, so that it is never copied whole.
 ///
-/// Local lights, which hang in the tree, are numbered as its emitters: emissive triangles
-/// first, then those analytic lights that are not suns.
+/// Analytic lights, the world and instances with emission are the leaves of the tree of
+/// groups; the triangles of an instance hang in a tree of their own.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LightView<'a> {
-    /// The light tree, root first.
+    /// Blocks of the tree of groups, root first.
+    pub groups: &'a [LightGroups],
+    /// Slot (8 · block + lane) that holds each block; unused for the root.
+    pub group_parents: &'a [u32],
+    /// The trees of emissive triangles.
     pub nodes: &'a [LightNode],
-    /// Slot (8 · node + child) that holds each node of the tree; unused for the root.
+    /// Slot (8 · node + child) that holds each node, or [`LIGHT_PARENT_GROUP`].
     pub parents: &'a [u32],
     /// Slot that holds each emitter.
     pub slots: &'a [u32],
@@ -184,18 +219,14 @@ pub struct LightView<'a> {
     pub materials: &'a [LightMaterial],
     /// Analytic lights.
     pub lights: &'a [LightOf],
-    /// Analytic lights of the tree, by emitter less the number of triangles.
-    pub local: &'a [u32],
-    /// Lights at infinity.
-    pub suns: &'a [LightSun],
+    /// Those at infinity but for the world.
+    pub suns: &'a [u32],
     /// Hierarchy over the analytic lights with a shape, root first.
     pub boxes: &'a [LightBox],
     /// Analytic lights in the order of the hierarchy's leaves.
     pub order: &'a [u32],
     /// Tables of the world's importance map; see `light_world`.
     pub world: &'a [f32],
-    /// Bounds of everything in the tree.
-    pub root: LightRoot,
     /// One of the `LIGHT_WORLD_` kinds.
     pub world_kind: u32,
     /// Columns of the world's map.
@@ -204,6 +235,8 @@ pub struct LightView<'a> {
     pub world_height: u32,
     /// Which closures see the world: `RAY_` bits.
     pub world_visibility: u32,
+    /// The world's slot in the groups.
+    pub world_slot: u32,
     /// Radiance of a constant world, W·sr⁻¹·m⁻².
     pub world_radiance: Vec3,
     /// Luminous irradiance of the world's mean radiance on one side.

@@ -9,7 +9,6 @@
 //! each row w + 1 cumulative probabilities of its texels.
 
 use crate::device::light_importance::light_world_irradiance;
-use crate::device::light_sun::light_from_both_sides;
 use crate::device::light_tree::LIGHT_ONE_BELOW;
 use crate::device::light_view::{LIGHT_WORLD_CONSTANT, LIGHT_WORLD_MAP, LightView};
 use crate::device::mapping::{mapping_cone, mapping_cosine, mapping_frame, mapping_place};
@@ -46,16 +45,22 @@ pub struct LightWorldDirection {
     pub pdf: f32,
 }
 
-/// Estimate of the luminous irradiance that the world brings to a surface with unit normal
-/// `n`; zero `n`: mean of both sides.
+/// True for the zero normal of a point where light from both sides counts.
 #[inline(always)]
-pub fn light_world_estimate(view: LightView, n: Vec3) -> f32 {
-    let mean = view.world_irradiance;
+pub fn light_from_both_sides(n: Vec3) -> bool {
+    n.x == 0.0 && n.y == 0.0 && n.z == 0.0
+}
+
+/// Estimate of the irradiance that the world brings to a surface with unit normal `n`, over
+/// that of its mean radiance; zero `n`: mean of both sides.
+#[inline(always)]
+pub fn light_world_factor(view: LightView, n: Vec3) -> f32 {
     if view.world_kind != LIGHT_WORLD_MAP || light_from_both_sides(n) {
-        return mean;
+        return 1.0;
     }
     // Nine harmonics ring around sharp suns: never below a tenth of the mean.
-    max(light_world_irradiance(view.world_harmonics, n), 0.1 * mean)
+    let estimate = light_world_irradiance(view.world_harmonics, n) / view.world_irradiance;
+    max(estimate, 0.1)
 }
 
 /// An interval of a cumulative distribution.

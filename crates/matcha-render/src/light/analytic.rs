@@ -5,14 +5,20 @@
 //! E / (π sin² h) with half angle h; without `normalize` the area is left out. A point
 //! without radius has the intensity P / 4π, with or without `normalize`'s area of 4 m².
 
+use super::groups::Group;
 use super::world::luminance;
 use crate::accel::visibility_mask;
 use crate::device::light_analytic::{
     AnalyticLight, LIGHT_DISC, LIGHT_ELLIPSE, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SHARP_SUN,
     LIGHT_SPHERE, LIGHT_SUN,
 };
+use crate::device::light_group::{
+    LIGHT_GROUP_BALL, LIGHT_GROUP_DISC, LIGHT_GROUP_DISTANT, LIGHT_GROUP_RECTANGLE,
+};
 use crate::device::light_importance::LightBounds;
-use crate::device::light_view::{LIGHT_CASTS_SHADOW, LIGHT_IS_MET, LIGHT_NONE, LightOf};
+use crate::device::light_view::{
+    LIGHT_CASTS_SHADOW, LIGHT_GROUP_IS_LIGHT, LIGHT_IS_MET, LIGHT_NONE, LightOf,
+};
 use crate::device::mapping::MappingFrame;
 use crate::scene::{Light, LightShape};
 use glam::{Mat3, Vec2, Vec3};
@@ -28,7 +34,7 @@ pub fn is_sun(light: &AnalyticLight) -> bool {
 }
 
 /// Converts a light; `None` where it cannot shine: black, without area, or not finite. Its
-/// place among its like is still to be set.
+/// slot in the groups is still to be set.
 pub fn convert(light: &Light, index: u32) -> Option<LightOf> {
     let matrix = Mat3::from(light.transform.matrix3);
     let center: Vec3 = light.transform.translation.into();
@@ -86,7 +92,7 @@ pub fn convert(light: &Light, index: u32) -> Option<LightOf> {
         flags: flags(light, &shape),
         visibility: u32::from(visibility_mask(&light.visibility)),
         max_bounces: light.max_bounces,
-        place: LIGHT_NONE,
+        slot: LIGHT_NONE,
         shape,
     })
 }
@@ -250,6 +256,32 @@ pub fn bounds(light: &AnalyticLight) -> LightBounds {
     }
 }
 
+/// The group of analytic light `index`.
+pub fn group(light: &AnalyticLight, index: u32) -> Group {
+    let mut group = Group::boxed(bounds(light), LIGHT_GROUP_IS_LIGHT | index);
+    group.half = Vec3::X * light.radius;
+    group.kind = match light.kind {
+        LIGHT_RECTANGLE | LIGHT_ELLIPSE => {
+            group.half = light.axes.x * (0.5 * light.size.x);
+            group.side = light.axes.y * (0.5 * light.size.y);
+            LIGHT_GROUP_RECTANGLE
+        }
+        LIGHT_DISC => LIGHT_GROUP_DISC,
+        LIGHT_SUN | LIGHT_SHARP_SUN => {
+            group.bounds.cos_normals = 1.0;
+            group.bounds.cos_emission = if light.kind == LIGHT_SUN {
+                1.0 - light.one_minus_cos
+            } else {
+                1.0
+            };
+            group.bounds.power = sun_irradiance(light);
+            LIGHT_GROUP_DISTANT
+        }
+        _ => LIGHT_GROUP_BALL,
+    };
+    group
+}
+
 /// Factor of a limited spread along the axis.
 fn peak(light: &AnalyticLight) -> f32 {
     if light.tan_half_spread > 0.0 {
@@ -260,7 +292,7 @@ fn peak(light: &AnalyticLight) -> f32 {
 }
 
 /// Luminous irradiance of a sun on a surface that faces it.
-pub fn sun_irradiance(light: &AnalyticLight) -> f32 {
+fn sun_irradiance(light: &AnalyticLight) -> f32 {
     let radiance = luminance(light.radiance.abs());
     if light.kind == LIGHT_SHARP_SUN {
         return radiance;

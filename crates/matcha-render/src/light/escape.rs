@@ -1,9 +1,7 @@
 //! Lights at infinity.
 
-use super::analytic::sun_irradiance;
 use super::world::{WorldMap, WorldRadiance, luminance};
-use crate::device::light_analytic::LIGHT_SHARP_SUN;
-use crate::device::light_view::{LIGHT_WORLD_CONSTANT, LightOf, LightSun, LightView};
+use crate::device::light_view::{LIGHT_WORLD_CONSTANT, LightView};
 use glam::Vec3;
 use std::f32::consts::PI;
 
@@ -20,35 +18,15 @@ enum World {
 /// The suns and the world.
 #[derive(Clone, Debug, Default)]
 pub struct Distant {
-    suns: Vec<LightSun>,
+    suns: Vec<u32>,
     world: Option<World>,
     /// Which rays see the world: `RAY_` bits.
     visibility: u32,
 }
 
 impl Distant {
-    /// Prepares the suns (indices into `lights`) and the world.
-    pub fn new(
-        lights: &[LightOf],
-        suns: &[u32],
-        world: Option<WorldRadiance>,
-        visibility: u32,
-    ) -> Self {
-        let sun = |&index: &u32| {
-            let shape = &lights[index as usize].shape;
-            let sharp = shape.kind == LIGHT_SHARP_SUN;
-            let cos_half = if sharp {
-                1.0
-            } else {
-                1.0 - shape.one_minus_cos
-            };
-            LightSun {
-                index,
-                towards: -shape.axes.z,
-                cos_half,
-                irradiance: sun_irradiance(shape),
-            }
-        };
+    /// Prepares the suns (indices of analytic lights) and the world.
+    pub fn new(suns: Vec<u32>, world: Option<WorldRadiance>, visibility: u32) -> Self {
         let world = match world {
             Some(WorldRadiance::Constant(c)) => {
                 (c != Vec3::ZERO && c.is_finite()).then(|| World::Constant {
@@ -60,15 +38,20 @@ impl Distant {
             None => None,
         };
         Self {
-            suns: suns.iter().map(sun).collect(),
+            suns,
             world,
             visibility,
         }
     }
 
-    /// Without suns and without a world that is sampled.
-    pub fn is_empty(&self) -> bool {
-        self.suns.is_empty() && self.world.is_none()
+    /// Luminous irradiance that the world's mean radiance brings to one side, W·m⁻²; none
+    /// where the world is not sampled.
+    pub fn world_irradiance(&self) -> Option<f32> {
+        match &self.world {
+            Some(World::Constant { irradiance, .. }) => Some(*irradiance),
+            Some(World::Map(map)) => Some(map.irradiance(Vec3::ZERO)),
+            None => None,
+        }
     }
 
     /// Bytes in memory.
@@ -80,9 +63,9 @@ impl Distant {
             }
     }
 
-    /// Number of suns.
-    pub fn suns(&self) -> u32 {
-        self.suns.len() as u32
+    /// The suns' indices.
+    pub fn suns(&self) -> &[u32] {
+        &self.suns
     }
 
     /// The suns and the world without other lights.

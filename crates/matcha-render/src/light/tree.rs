@@ -1,9 +1,10 @@
-//! The light tree's data; the descent is in [`crate::device::light_tree`].
+//! Light trees' data; the descent is in [`crate::device::light_tree`].
 
 use super::tree_build;
 use crate::device::light_importance::LightBounds;
 use crate::device::light_view::{
-    LIGHT_LINK_EMITTER, LIGHT_LINK_INDEX, LIGHT_LINK_TWO_SIDED, LightNode, LightRoot, LightView,
+    LIGHT_LINK_EMITTER, LIGHT_LINK_INDEX, LIGHT_LINK_TWO_SIDED, LIGHT_PARENT_GROUP, LightNode,
+    LightView,
 };
 use bytemuck::Zeroable;
 
@@ -62,53 +63,62 @@ impl LightNode {
     }
 }
 
-/// A light tree over emitters numbered from 0.
+/// Light trees over emitters numbered from 0.
 #[derive(Clone, Debug, Default)]
 pub struct LightTree {
-    root: LightRoot,
     nodes: Vec<LightNode>,
-    /// Slot (`WIDTH` · node + child) that holds each node; unused for the root.
+    /// Slot (`WIDTH` · node + child) that holds each node; of a root its slot in the groups.
     parents: Vec<u32>,
     /// Slot that holds each emitter.
     slots: Vec<u32>,
 }
 
 impl LightTree {
-    /// Builds the tree; emitter `i` has the bounds `bounds[i]`.
-    pub fn build(bounds: &[LightBounds]) -> Self {
+    /// Adds a tree over emitters with the bounds `bounds`, whose numbers follow those of the
+    /// emitters before; returns its root and the bounds of all. Where the tree hangs is still
+    /// to be set.
+    ///
+    /// # Panics
+    /// Without bounds.
+    pub fn add(&mut self, bounds: &[LightBounds]) -> (u32, LightBounds) {
+        let root = self.nodes.len();
+        let first = self.slots.len() as u32;
         let binary = tree_build::build(bounds);
-        let Some(root) = binary.first() else {
-            return Self::default();
-        };
-        let nodes = super::tree_collapse::collapse(&binary);
-        let mut parents = vec![0; nodes.len()];
-        let mut slots = vec![0; bounds.len()];
-        for (index, node) in nodes.iter().enumerate() {
+        let mut added = super::tree_collapse::collapse(&binary);
+        self.parents.resize(root + added.len(), LIGHT_PARENT_GROUP);
+        self.slots.resize(self.slots.len() + bounds.len(), 0);
+        for (index, node) in added.iter_mut().enumerate() {
             for slot in 0..WIDTH {
-                let here = (index * WIDTH + slot) as u32;
+                let here = ((root + index) * WIDTH + slot) as u32;
                 match node.link(slot) {
-                    Some(Link::Node(child)) => parents[child as usize] = here,
-                    Some(Link::Emitter(emitter)) => slots[emitter as usize] = here,
+                    Some(Link::Node(child)) => {
+                        node.link[slot] += root as u32;
+                        self.parents[root + child as usize] = here;
+                    }
+                    Some(Link::Emitter(emitter)) => {
+                        node.link[slot] += first;
+                        self.slots[(first + emitter) as usize] = here;
+                    }
                     None => {}
                 }
             }
         }
-        Self {
-            root: stored(&root.bounds),
-            nodes,
-            parents,
-            slots,
-        }
+        self.nodes.append(&mut added);
+        (root as u32, binary[0].bounds)
     }
 
-    /// The tree without the lights in it.
+    /// Says in which slot of the groups a tree hangs.
+    pub fn hang(&mut self, root: u32, slot: u32) {
+        self.parents[root as usize] = LIGHT_PARENT_GROUP | slot;
+    }
+
+    /// The trees without the lights in them.
     #[inline(always)]
     pub fn view(&self) -> LightView<'_> {
         LightView {
             nodes: &self.nodes,
             parents: &self.parents,
             slots: &self.slots,
-            root: self.root,
             ..LightView::default()
         }
     }
@@ -117,32 +127,13 @@ impl LightTree {
     pub fn bytes(&self) -> usize {
         size_of_val(&self.nodes[..]) + size_of_val(&self.parents[..]) + size_of_val(&self.slots[..])
     }
-
-    /// True without emitters.
-    pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
-    }
-}
-
-fn stored(bounds: &LightBounds) -> LightRoot {
-    LightRoot {
-        low: bounds.low,
-        high: bounds.high,
-        axis: bounds.axis,
-        cos_normals: bounds.cos_normals,
-        cos_emission: bounds.cos_emission,
-        power: bounds.power,
-        two_sided: u32::from(bounds.two_sided),
-    }
 }
 
 /// What the tests ask of a tree.
 #[cfg(test)]
 mod asked {
     use super::*;
-    use crate::device::light_tree::{
-        light_child_bounds, light_tree_probability, light_tree_sample,
-    };
+    use crate::device::light_tree::{light_child_bounds, light_tree_climb, light_tree_sample};
     use glam::Vec3;
 
     impl LightTree {
@@ -153,13 +144,13 @@ mod asked {
 
         /// An emitter and its probability.
         pub fn sample(&self, p: Vec3, n: Vec3, u: f32) -> Option<(u32, f32)> {
-            let choice = light_tree_sample(self.view(), p, n, u);
+            let choice = light_tree_sample(self.view(), 0, p, n, u);
             choice.found.then_some((choice.index, choice.probability))
         }
 
         /// Probability with which `sample` draws an emitter.
         pub fn probability(&self, emitter: u32, p: Vec3, n: Vec3) -> f32 {
-            light_tree_probability(self.view(), emitter, p, n)
+            light_tree_climb(self.view(), emitter, p, n).probability
         }
     }
 

@@ -2,9 +2,7 @@
 //! [`crate::device::light_world`].
 
 use crate::device::light_view::{LIGHT_WORLD_MAP, LightView};
-use crate::device::light_world::{
-    light_world_estimate, light_world_map_pdf, light_world_map_sample,
-};
+use crate::device::light_world::{light_world_factor, light_world_map_pdf, light_world_map_sample};
 use glam::{Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
 
@@ -120,7 +118,7 @@ impl WorldMap {
 
     /// Estimate of the irradiance at a surface with unit normal `n`; zero `n`: mean of both sides.
     pub fn irradiance(&self, n: Vec3) -> f32 {
-        light_world_estimate(self.view(), n)
+        self.mean_irradiance * light_world_factor(self.view(), n)
     }
 
     /// A direction for `u` in [0, 1)², with its density over solid angle.
