@@ -15,8 +15,12 @@ fn main() {
     let args: Vec<String> = std::env::args().collect();
     let number = |i: usize, d: u32| args.get(i).and_then(|a| a.parse().ok()).unwrap_or(d);
     let (w, h, spp, cached) = (number(2, 64), number(3, 36), number(4, 1), number(5, 0));
-    let loaded =
-        matcha_import::load(std::path::Path::new(&args[1]), &Default::default(), &mut |_| {}).expect("scene");
+    let loaded = matcha_import::load(
+        std::path::Path::new(&args[1]),
+        &Default::default(),
+        &mut |_| {},
+    )
+    .expect("scene");
     let prepared = Arc::new(Prepared::new(loaded.scene, Some([w, h])).expect("prepared"));
     let options = RenderOptions {
         cache: if cached > 0 {

@@ -127,24 +127,27 @@ impl<'p> FlatScene<'p> {
 /// The words of all fields of [`LightView`].
 fn light_sections<'a>(view: &'a LightView<'a>) -> Vec<Section<'a>> {
     macro_rules! fields {
-        ($($array:ident)*; $($plain:ident)*) => {
+        ($($array:ident)*; $($plain:ident)*) => {{
+            // Named one by one, so that a new field is not forgotten.
+            let LightView { $($array,)* $($plain,)* } = view;
             vec![
                 $(Section {
                     name: concat!("LightView_", stringify!($array)),
-                    words: bytemuck::cast_slice(view.$array),
+                    words: bytemuck::cast_slice($array),
                     is_plain: false,
                 },)*
                 $(Section {
                     name: concat!("LightView_", stringify!($plain)),
-                    words: bytemuck::cast_slice(std::slice::from_ref(&view.$plain)),
+                    words: bytemuck::cast_slice(std::slice::from_ref($plain)),
                     is_plain: true,
                 },)*
             ]
-        };
+        }};
     }
     fields!(
-        nodes parents slots triangles first of_primitive materials lights local suns boxes order world;
-        root world_kind world_width world_height world_visibility world_radiance world_irradiance
-        world_harmonics
+        groups group_parents nodes parents slots triangles first of_primitive materials lights suns
+        boxes order world;
+        world_kind world_width world_height world_visibility world_slot world_radiance
+        world_irradiance world_harmonics
     )
 }
