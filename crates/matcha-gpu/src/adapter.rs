@@ -117,7 +117,7 @@ pub fn choose(adapters: Vec<Adapter>, wanted: &Wanted) -> Result<Adapter, GpuErr
 fn choose_report(reports: &[&AdapterReport], wanted: &Wanted) -> Result<usize, GpuError> {
     let asked = match wanted {
         Wanted::Real | Wanted::Best => String::new(),
-        Wanted::Number(number) => number.to_string(),
+        Wanted::Number(number) => format!("gpu:{number}"),
         Wanted::Named(name) => name.clone(),
     };
     let fits = |report: &AdapterReport| match wanted {

@@ -67,7 +67,8 @@ impl Pipelines {
         }
     }
 
-    /// Time spent in compiling, seconds.
+    /// Time spent in putting kernels together, compiling them and running them for the first
+    /// time, seconds.
     pub fn seconds(&self) -> f64 {
         self.time
             .lock()
@@ -80,7 +81,18 @@ impl Pipelines {
     /// # Errors
     /// If its text does not come together, or the driver refuses it.
     pub fn kernel(&self, source: &KernelSource) -> Result<Arc<Kernel>, GpuError> {
+        self.timed(|| self.find_or_compile(source))
+    }
+
+    /// Does something whose time is the kernels'.
+    pub(crate) fn timed<T>(&self, work: impl FnOnce() -> T) -> T {
         let start = Instant::now();
+        let done = work();
+        *self.time.lock().unwrap_or_else(PoisonError::into_inner) += start.elapsed();
+        done
+    }
+
+    fn find_or_compile(&self, source: &KernelSource) -> Result<Arc<Kernel>, GpuError> {
         let linked = source.library.link(source.name, source.memories)?;
         let key = key(source, &linked);
         let made = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
@@ -89,7 +101,6 @@ impl Pipelines {
         }
         let kernel = Arc::new(self.compile(source, &linked)?);
         made().insert(key, kernel.clone());
-        *self.time.lock().unwrap_or_else(PoisonError::into_inner) += start.elapsed();
         Ok(kernel)
     }
 

@@ -136,9 +136,8 @@ fn what_no_adapter_is_called_is_refused_by_name() {
     let arguments = ["render", "none.glb", "-o", "a.png", "--device"];
     for device in ["abacus", "gpu:99"] {
         let sentence = refused(&run(&mut matcha(), &[&arguments[..], &[device]].concat()));
-        let asked = device.trim_start_matches("gpu:");
         assert!(
-            sentence.contains(&format!("called \"{asked}\"")),
+            sentence.contains(&format!("called \"{device}\"")),
             "{sentence}"
         );
     }
@@ -189,6 +188,10 @@ fn a_gpu_renders_and_its_times_are_in_the_statistics() {
     );
     let mut command = matcha();
     command.env("XDG_CACHE_HOME", folder.path().join("cache"));
+    // Mesa's own cache stays where it is: a processor takes minutes to compile for itself.
+    if let Some(home) = std::env::var_os("HOME") {
+        command.env("MESA_SHADER_CACHE_DIR", Path::new(&home).join(".cache"));
+    }
     let run = run(
         &mut command,
         &[

@@ -25,7 +25,7 @@ use matcha_render::backend::{CacheMode, Control, RenderOptions};
 use matcha_render::film::Film;
 use matcha_render::flat::FlatScene;
 use matcha_render::prepare::Prepared;
-use stages::{Form, Kernels};
+use stages::{Form, Kernels, Wave};
 use state::{Part, SlotMemory};
 use std::ops::Range;
 use std::sync::Arc;
@@ -107,7 +107,7 @@ impl Wavefront {
             table.as_ref(),
             &form,
         )?;
-        Ok(Wavefront {
+        let mut wavefront = Wavefront {
             runner: Runner::new(device)?,
             in_use: slots.capacity(),
             scene,
@@ -118,7 +118,38 @@ impl Wavefront {
             width,
             totals: Totals::default(),
             time: Duration::ZERO,
-        })
+        };
+        pipelines.timed(|| wavefront.run_empty())?;
+        // Without the time that this took.
+        wavefront.runner = Runner::new(device)?;
+        Ok(wavefront)
+    }
+
+    /// Runs a wave without a path: some drivers compile a kernel when it first runs, and the
+    /// picture's time should not have that in it.
+    fn run_empty(&mut self) -> Result<(), GpuError> {
+        let nothing = Part {
+            first: 0,
+            pixels: 1,
+            streams: 1,
+            width: self.width,
+            first_sample: 0,
+            end: 0,
+        };
+        self.slots.reset(&mut self.runner, &nothing)?;
+        self.wave().run(&nothing)?;
+        self.slots.take_counts().map(|_| ())
+    }
+
+    fn wave(&mut self) -> Wave<'_> {
+        Wave {
+            runner: &mut self.runner,
+            scene: &self.scene,
+            table: self.table.as_ref(),
+            slots: &self.slots,
+            kernels: &self.kernels,
+            form: &self.form,
+        }
     }
 
     /// Adds samples `range` of every pixel to the film and to `control`; returns early
@@ -157,15 +188,7 @@ impl Wavefront {
                 // What is in flight is left; samples that are done count.
                 part.end = part.first_sample;
             }
-            let mut wave = stages::Wave {
-                runner: &mut self.runner,
-                scene: &self.scene,
-                table: self.table.as_ref(),
-                slots: &self.slots,
-                kernels: &self.kernels,
-                form: &self.form,
-            };
-            let longest = wave.run(&part)?;
+            let longest = self.wave().run(&part)?;
             let counts = self.slots.take_counts()?;
             self.totals.add(&counts);
             self.adapt(longest);
