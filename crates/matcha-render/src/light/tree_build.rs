@@ -2,7 +2,9 @@
 //! (Conty Estevez and Kulla 2018, §4.4), in parallel; exact bounds bottom-up.
 
 use crate::device::light_importance::LightBounds;
-use glam::Vec3;
+use glam::{Vec3, Vec4};
+use matcha_shade::device::math::{clamp, to_int};
+use rayon::prelude::*;
 
 /// Bins per axis.
 const BINS: usize = 12;
@@ -11,14 +13,38 @@ const DEEP: u32 = 36;
 /// Smaller jobs stay on their thread.
 const PARALLEL: usize = 4096;
 
+/// What the choice of splits reads of an emitter, in vectors that a register holds.
+#[derive(Clone, Copy)]
 struct Item {
-    bounds: LightBounds,
+    /// Low corner of the box; the fourth number is 0.
+    low: Vec4,
+    /// High corner of the box.
+    high: Vec4,
+    /// Axis times the weight of its direction in a cluster; power.
+    sum: Vec4,
     emitter: u32,
 }
 
 impl Item {
-    fn centroid(&self) -> Vec3 {
-        (self.bounds.low + self.bounds.high) * 0.5
+    fn new(bounds: &LightBounds, emitter: u32) -> Self {
+        // Either direction stands for a two-sided light: take one half space's.
+        let sign = if bounds.two_sided && bounds.axis.dot(HALF_SPACE) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        let sharpness = 0.5 + 0.5 * bounds.cos_normals;
+        let axis = bounds.axis * (bounds.power * sign * sharpness);
+        Self {
+            low: bounds.low.extend(0.0),
+            high: bounds.high.extend(0.0),
+            sum: axis.extend(bounds.power),
+            emitter,
+        }
+    }
+
+    fn centroid(&self) -> Vec4 {
+        (self.low + self.high) * 0.5
     }
 }
 
@@ -46,12 +72,9 @@ pub fn build(bounds: &[LightBounds]) -> Vec<BinaryNode> {
         return Vec::new();
     };
     let mut items: Vec<Item> = bounds
-        .iter()
-        .zip(0..)
-        .map(|(b, emitter)| Item {
-            bounds: *b,
-            emitter,
-        })
+        .par_iter()
+        .enumerate()
+        .map(|(emitter, b)| Item::new(b, emitter as u32))
         .collect();
     let blank = BinaryNode {
         bounds: some,
@@ -59,13 +82,14 @@ pub fn build(bounds: &[LightBounds]) -> Vec<BinaryNode> {
     };
     let mut nodes = vec![blank; 2 * items.len() - 1];
     let (root, rest) = nodes.split_first_mut().expect("there is one node at least");
-    build_node(Job {
+    let job = Job {
         node: root,
         rest,
         first: 1,
         items: &mut items,
         depth: 0,
-    });
+    };
+    build_node(bounds, job);
     nodes
 }
 
@@ -78,14 +102,13 @@ struct Job<'a> {
     depth: u32,
 }
 
-fn build_node(job: Job<'_>) -> LightBounds {
+/// Builds a sub-tree over emitters with these bounds; returns the bounds of all of it.
+fn build_node(emitters: &[LightBounds], job: Job<'_>) -> LightBounds {
     if let [item] = job.items {
+        let bounds = emitters[item.emitter as usize];
         let link = BinaryLink::Emitter(item.emitter);
-        *job.node = BinaryNode {
-            bounds: item.bounds,
-            link,
-        };
-        return item.bounds;
+        *job.node = BinaryNode { bounds, link };
+        return bounds;
     }
     let middle = if job.depth < DEEP {
         split(job.items)
@@ -112,9 +135,12 @@ fn build_node(job: Job<'_>) -> LightBounds {
         depth: job.depth + 1,
     };
     let (a, b) = if parallel {
-        rayon::join(|| build_node(left), || build_node(right))
+        rayon::join(
+            || build_node(emitters, left),
+            || build_node(emitters, right),
+        )
     } else {
-        (build_node(left), build_node(right))
+        (build_node(emitters, left), build_node(emitters, right))
     };
     let bounds = unite(&a, &b);
     *job.node = BinaryNode {
@@ -175,42 +201,32 @@ fn unite_cones(a: Vec3, cos_a: f32, b: Vec3, cos_b: f32) -> (Vec3, f32) {
 /// Sums over the items of a bin, or of one side of a split.
 #[derive(Clone, Copy)]
 struct Bin {
-    low: Vec3,
-    high: Vec3,
-    axis: Vec3,
-    power: f32,
+    low: Vec4,
+    high: Vec4,
+    /// Of the weighted axes and of powers.
+    sum: Vec4,
     count: u32,
 }
 
 const EMPTY: Bin = Bin {
-    low: Vec3::INFINITY,
-    high: Vec3::NEG_INFINITY,
-    axis: Vec3::ZERO,
-    power: 0.0,
+    low: Vec4::INFINITY,
+    high: Vec4::NEG_INFINITY,
+    sum: Vec4::ZERO,
     count: 0,
 };
 
 impl Bin {
-    fn add(&mut self, bounds: &LightBounds) {
-        self.low = self.low.min(bounds.low);
-        self.high = self.high.max(bounds.high);
-        // Either direction stands for a two-sided light: take one half space's.
-        let sign = if bounds.two_sided && bounds.axis.dot(HALF_SPACE) < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        let sharpness = 0.5 + 0.5 * bounds.cos_normals;
-        self.axis += bounds.axis * (bounds.power * sign * sharpness);
-        self.power += bounds.power;
+    fn add(&mut self, item: &Item) {
+        self.low = self.low.min(item.low);
+        self.high = self.high.max(item.high);
+        self.sum += item.sum;
         self.count += 1;
     }
 
     fn join(&mut self, other: &Bin) {
         self.low = self.low.min(other.low);
         self.high = self.high.max(other.high);
-        self.axis += other.axis;
-        self.power += other.power;
+        self.sum += other.sum;
         self.count += other.count;
     }
 
@@ -218,10 +234,11 @@ impl Bin {
     /// splits, so the mean direction's length stands in for the bounding cone, whose union
     /// would cost more than the rest of the build.
     fn cost(&self, diagonal: f32) -> f32 {
-        let size = (self.high - self.low).max(Vec3::splat(1e-3 * diagonal));
+        let size = (self.high - self.low).max(Vec4::splat(1e-3 * diagonal));
         let area = size.x * size.y + size.y * size.z + size.z * size.x;
-        let spread = 1.0 - (self.axis.length() / self.power.max(1e-30)).min(1.0);
-        self.power * area * (1.0 + 3.0 * spread)
+        let (axis, power) = (self.sum.truncate(), self.sum.w);
+        let spread = 1.0 - (axis.length() / power.max(1e-30)).min(1.0);
+        power * area * (1.0 + 3.0 * spread)
     }
 }
 
@@ -231,32 +248,37 @@ const HALF_SPACE: Vec3 = Vec3::new(0.31, 0.47, 0.83);
 /// Reorders the items into two groups; returns the size of the first, never 0 or all.
 fn split(items: &mut [Item]) -> usize {
     let half = items.len() / 2;
-    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    if items.len() == 2 {
+        return half;
+    }
+    let (mut low, mut high) = (Vec4::INFINITY, Vec4::NEG_INFINITY);
     for item in items.iter() {
         low = low.min(item.centroid());
         high = high.max(item.centroid());
     }
-    let extent = high - low;
-    if items.len() == 2 || !extent.is_finite() || extent.max_element() <= 0.0 {
+    let extent = (high - low).truncate();
+    if !extent.is_finite() || extent.max_element() <= 0.0 {
         return half;
     }
-    let scale = Vec3::select(extent.cmpgt(Vec3::ZERO), BINS as f32 / extent, Vec3::ZERO);
-    let bin_of = |item: &Item| {
-        ((item.centroid() - low) * scale)
-            .min(Vec3::splat(BINS as f32 - 1.0))
-            .as_uvec3()
-    };
+    let scale =
+        Vec3::select(extent.cmpgt(Vec3::ZERO), BINS as f32 / extent, Vec3::ZERO).extend(0.0);
     let mut bins = [[EMPTY; BINS]; 3];
     for item in items.iter() {
-        let bin = bin_of(item);
+        let places = (item.centroid() - low) * scale;
         for axis in 0..3 {
-            bins[axis][bin[axis] as usize].add(&item.bounds);
+            bins[axis][bin_of(places[axis])].add(item);
         }
     }
     let Some((axis, boundary)) = cheapest(&bins, extent) else {
         return half;
     };
-    let middle = partition(items, |item| bin_of(item)[axis] < boundary);
+    let (start, scale) = (low[axis], scale[axis]);
+    let middle = partition(items, |item| {
+        // Through arrays: indexing a vector branches.
+        let (low, high): (&[f32; 4], &[f32; 4]) = (item.low.as_ref(), item.high.as_ref());
+        let centroid = (low[axis] + high[axis]) * 0.5;
+        bin_of((centroid - start) * scale) < boundary
+    });
     if middle == 0 || middle == items.len() {
         half
     } else {
@@ -264,38 +286,54 @@ fn split(items: &mut [Item]) -> usize {
     }
 }
 
+/// Bin of a place from 0 to [`BINS`].
+#[inline(always)]
+fn bin_of(place: f32) -> usize {
+    to_int(clamp(place, 0.0, BINS as f32 - 1.0)) as usize
+}
+
 /// Axis and first bin of the second group of the cheapest split.
-fn cheapest(bins: &[[Bin; BINS]; 3], extent: Vec3) -> Option<(usize, u32)> {
+fn cheapest(bins: &[[Bin; BINS]; 3], extent: Vec3) -> Option<(usize, usize)> {
     let mut best = None;
     let mut least = f32::INFINITY;
+    let mut after = [EMPTY; BINS];
     for (axis, bins) in bins.iter().enumerate() {
         if extent[axis] <= 0.0 {
             continue;
         }
         // Long sides are better cut (the paper's regularisation of thin boxes).
         let thinness = extent.max_element() / extent[axis];
-        let mut after = [EMPTY; BINS];
-        after[BINS - 1] = bins[BINS - 1];
-        for i in (0..BINS - 1).rev() {
-            after[i] = after[i + 1];
-            after[i].join(&bins[i]);
+        let (filled, count) = filled(bins);
+        let mut all = EMPTY;
+        for k in (0..count).rev() {
+            all.join(&bins[filled[k]]);
+            after[k] = all;
         }
-        let diagonal = (after[0].high - after[0].low).length();
+        let diagonal = (all.high - all.low).truncate().length();
         let mut before = EMPTY;
-        for boundary in 1..BINS {
-            before.join(&bins[boundary - 1]);
-            let rest = &after[boundary];
-            if before.count == 0 || rest.count == 0 {
-                continue;
-            }
-            let cost = thinness * (before.cost(diagonal) + rest.cost(diagonal));
+        for k in 1..count {
+            before.join(&bins[filled[k - 1]]);
+            let cost = thinness * (before.cost(diagonal) + after[k].cost(diagonal));
             if cost < least {
                 least = cost;
-                best = Some((axis, boundary as u32));
+                best = Some((axis, filled[k]));
             }
         }
     }
     best
+}
+
+/// Bins with items, and how many there are: few where the items are few.
+fn filled(bins: &[Bin; BINS]) -> ([usize; BINS], usize) {
+    let mut filled = [0; BINS];
+    let mut count = 0;
+    for (i, bin) in bins.iter().enumerate() {
+        if bin.count > 0 {
+            filled[count] = i;
+            count += 1;
+        }
+    }
+    (filled, count)
 }
 
 /// Moves the items that satisfy the predicate to the front; returns their number.
@@ -303,7 +341,9 @@ fn partition(items: &mut [Item], first: impl Fn(&Item) -> bool) -> usize {
     let mut end = 0;
     for i in 0..items.len() {
         if first(&items[i]) {
-            items.swap(i, end);
+            if i != end {
+                items.swap(i, end);
+            }
             end += 1;
         }
     }
