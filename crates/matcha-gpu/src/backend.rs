@@ -26,56 +26,6 @@ pub enum MaterialStage {
     Split,
 }
 
-/// A stage of the wavefront.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stage {
-    /// Camera rays.
-    Generate,
-    /// Rays through the scene.
-    Traverse,
-    /// Points, footprints and look-ups in the cache.
-    Lookup,
-    /// Networks.
-    Evaluate,
-    /// Closures and light samples.
-    Shade,
-    /// Shadow rays.
-    Shadow,
-    /// Results to the film.
-    Accumulate,
-}
-
-impl Stage {
-    /// All, in the order in which a path meets them.
-    pub const ALL: [Stage; 7] = [
-        Stage::Generate,
-        Stage::Traverse,
-        Stage::Lookup,
-        Stage::Evaluate,
-        Stage::Shade,
-        Stage::Shadow,
-        Stage::Accumulate,
-    ];
-
-    /// Its name in statistics and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Stage::Generate => "generate",
-            Stage::Traverse => "traverse",
-            Stage::Lookup => "lookup",
-            Stage::Evaluate => "evaluate",
-            Stage::Shade => "shade",
-            Stage::Shadow => "shadow",
-            Stage::Accumulate => "accumulate",
-        }
-    }
-
-    /// The stage of a name.
-    pub fn named(name: &str) -> Option<Stage> {
-        Stage::ALL.into_iter().find(|stage| stage.name() == name)
-    }
-}
-
 /// What is asked of the GPU beside what is asked of every device.
 #[derive(Clone, Debug)]
 pub struct GpuOptions {
@@ -83,8 +33,6 @@ pub struct GpuOptions {
     pub wanted: Wanted,
     /// How networks are evaluated when results are kept.
     pub material_stage: MaterialStage,
-    /// Stages before this one run on the CPU: to find a fault.
-    pub gpu_from: Option<Stage>,
     /// Where compiled kernels are kept.
     pub cache_folder: Option<PathBuf>,
 }
@@ -94,7 +42,6 @@ impl Default for GpuOptions {
         Self {
             wanted: Wanted::Best,
             material_stage: MaterialStage::default(),
-            gpu_from: None,
             cache_folder: None,
         }
     }
@@ -237,18 +184,5 @@ impl Backend for GpuBackend {
             pipeline_seconds: self.gpu.pipelines.seconds(),
             stage_seconds: self.wavefront.statistics().stage_seconds,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn stages_are_found_by_their_names() {
-        for stage in Stage::ALL {
-            assert_eq!(Stage::named(stage.name()), Some(stage));
-        }
-        assert_eq!(Stage::named("Shade"), None);
     }
 }

@@ -119,9 +119,6 @@ pub(crate) struct Options {
     /// How networks are evaluated on a GPU when results are kept
     #[arg(long, value_enum, default_value_t = MaterialStage::Split)]
     pub material_stage: MaterialStage,
-    /// Stages before this one run on the CPU
-    #[arg(long, value_name = "STAGE", hide = true)]
-    pub gpu_from: Option<String>,
     /// Write full statistics
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,

@@ -141,9 +141,6 @@ fn what_no_adapter_is_called_is_refused_by_name() {
             "{sentence}"
         );
     }
-    let stage = ["gpu", "--gpu-from", "develop"];
-    let sentence = refused(&run(&mut matcha(), &[&arguments[..], &stage].concat()));
-    assert!(sentence.contains("no stage \"develop\""), "{sentence}");
     let stage = ["gpu", "--material-stage", "twice"];
     let sentence = refused(&run(&mut matcha(), &[&arguments[..], &stage].concat()));
     assert!(sentence.contains("twice"), "{sentence}");

@@ -3,10 +3,10 @@
 mod list;
 
 use crate::arguments::{self, Options};
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use matcha_gpu::GpuError;
 use matcha_gpu::adapter::{self, AdapterReport, Wanted};
-use matcha_gpu::backend::{Gpu, GpuBackend, GpuOptions, MaterialStage, Stage};
+use matcha_gpu::backend::{Gpu, GpuBackend, GpuOptions, MaterialStage};
 use matcha_import::user_cache_folder;
 use matcha_render::backend::{Backend, RenderError, RenderOptions};
 use matcha_render::prepare::Prepared;
@@ -57,7 +57,6 @@ pub(crate) fn list(json: bool) -> Result<String> {
 }
 
 fn gpu_options(options: &Options) -> Result<GpuOptions> {
-    let from = options.gpu_from.as_deref();
     Ok(GpuOptions {
         wanted: match &options.device {
             arguments::Device::Auto | arguments::Device::Cpu => Wanted::Real,
@@ -69,14 +68,6 @@ fn gpu_options(options: &Options) -> Result<GpuOptions> {
             arguments::MaterialStage::Inline => MaterialStage::Inline,
             arguments::MaterialStage::Split => MaterialStage::Split,
         },
-        gpu_from: from.map(stage).transpose()?,
         cache_folder: user_cache_folder().map(|folder| folder.join("kernels")),
-    })
-}
-
-fn stage(name: &str) -> Result<Stage> {
-    Stage::named(name).ok_or_else(|| {
-        let names = Stage::ALL.map(Stage::name).join(", ");
-        anyhow!("there is no stage \"{name}\"; there are {names}")
     })
 }
