@@ -112,15 +112,21 @@ pub fn texture_unrepeated(coordinate: f32, wrap: u32) -> f32 {
     }
 }
 
-/// Where a filter that reaches `back` texels back from an unrepeated coordinate begins.
+/// Where, in texels, a filter that reaches `back` texels back from an unrepeated coordinate
+/// begins; so limited that it is exact as a whole number.
+#[inline(always)]
+pub fn texture_begin(unrepeated: f32, size: u32, back: f32) -> f32 {
+    clamp(unrepeated * size as f32 - back, -1e8, 1e8)
+}
+
+/// A filter's first texel, and the fraction between it and the next.
 #[inline(always)]
 pub fn texture_tap(unrepeated: f32, size: u32, back: f32) -> TextureTap {
-    let at = clamp(unrepeated * size as f32 - back, -1e8, 1e8);
-    let truncated = to_int(at);
-    let first = truncated - (truncated as f32 > at) as i32;
+    let at = texture_begin(unrepeated, size, back);
+    let below = floor(at);
     TextureTap {
-        first,
-        fraction: at - first as f32,
+        first: to_int(below),
+        fraction: at - below,
     }
 }
 
@@ -143,23 +149,41 @@ pub fn texture_wrapped(i: i32, size: i32) -> i32 {
     at
 }
 
+/// Into 0..size, running back and forth.
+#[inline(always)]
+pub fn texture_mirrored(i: i32, size: i32) -> i32 {
+    let at = texture_wrapped(i, 2 * size);
+    if at < size { at } else { 2 * size - 1 - at }
+}
+
+/// Into 0..size: the nearest.
+#[inline(always)]
+pub fn texture_extended(i: i32, size: i32) -> i32 {
+    let mut at = i;
+    if at > size - 1 {
+        at = size - 1;
+    }
+    if at < 0 {
+        at = 0;
+    }
+    at
+}
+
 /// The texel that is read for texel `i` of the unbounded plane; [`TEXTURE_OUTSIDE`] where
 /// nothing is.
 #[inline(always)]
 pub fn texture_texel(i: i32, size: i32, wrap: u32) -> i32 {
     if wrap == TEXTURE_REPEAT {
-        texture_wrapped(i, size)
-    } else if wrap == TEXTURE_MIRROR {
-        let at = texture_wrapped(i, 2 * size);
-        if at < size { at } else { 2 * size - 1 - at }
-    } else if i >= 0 && i < size {
-        i
-    } else if wrap == TEXTURE_CLIP {
+        return texture_wrapped(i, size);
+    }
+    if wrap == TEXTURE_MIRROR {
+        return texture_mirrored(i, size);
+    }
+    let at = texture_extended(i, size);
+    if wrap == TEXTURE_CLIP && at != i {
         TEXTURE_OUTSIDE
-    } else if i < 0 {
-        0
     } else {
-        size - 1
+        at
     }
 }
 

@@ -35,7 +35,7 @@ impl Texture {
         self.filter_each(texture, points, out);
     }
 
-    /// With AVX2 bytes widen in one step.
+    /// With AVX2 rounding down is an instruction and not a call, and bytes widen in one step.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
     fn filter_all_avx2(&self, texture: &TextureRef, points: &Points, out: [&mut [f32]; 4]) {
@@ -180,16 +180,27 @@ fn axis<const N: usize>(
     back: f32,
     weights: impl Fn(f32) -> [f32; N],
 ) -> Axis<N> {
-    let tap = texture_tap(unrepeated, size, back);
-    let mut weight = weights(tap.fraction);
+    // `texture_tap` with this processor's rounding.
+    let at = texture_begin(unrepeated, size, back);
+    let below = at.floor();
+    let first = below as i32;
+    let mut weight = weights(at - below);
     let mut texel = [0; N];
     for (k, texel) in texel.iter_mut().enumerate() {
-        let found = texture_texel(tap.first + k as i32, size as i32, wrap);
-        if found == TEXTURE_OUTSIDE {
-            weight[k] = 0.0;
-        } else {
-            *texel = found as u32;
-        }
+        let (i, size) = (first + k as i32, size as i32);
+        // `texture_texel` taken apart: what is outside costs only where images are clipped.
+        *texel = match wrap {
+            TEXTURE_REPEAT => texture_wrapped(i, size),
+            TEXTURE_MIRROR => texture_mirrored(i, size),
+            TEXTURE_EXTEND => texture_extended(i, size),
+            _ => {
+                let nearest = texture_extended(i, size);
+                if nearest != i {
+                    weight[k] = 0.0;
+                }
+                nearest
+            }
+        } as u32;
     }
     Axis { texel, weight }
 }
