@@ -85,6 +85,10 @@ pub struct GpuOptions {
     pub material_stage: MaterialStage,
     /// Stages before this one run on the CPU: to find a fault.
     pub gpu_from: Option<Stage>,
+    /// Whether hits and misses are sorted by what is to be evaluated; by default where it
+    /// pays: on GPUs, whose neighbouring invocations run the same instruction, but not on drivers
+    /// on the processor.
+    pub sort_queues: Option<bool>,
     /// Where compiled kernels are kept.
     pub cache_folder: Option<PathBuf>,
 }
@@ -95,6 +99,7 @@ impl Default for GpuOptions {
             wanted: Wanted::Best,
             material_stage: MaterialStage::default(),
             gpu_from: None,
+            sort_queues: None,
             cache_folder: None,
         }
     }

@@ -70,6 +70,7 @@ fn gpu_options(options: &Options) -> Result<GpuOptions> {
             arguments::MaterialStage::Split => MaterialStage::Split,
         },
         gpu_from: from.map(stage).transpose()?,
+        sort_queues: None,
         cache_folder: user_cache_folder().map(|folder| folder.join("kernels")),
     })
 }
