@@ -33,6 +33,10 @@ pub struct GpuOptions {
     pub wanted: Wanted,
     /// How networks are evaluated when results are kept.
     pub material_stage: MaterialStage,
+    /// Whether hits and misses are sorted by what is to be evaluated; by default where it
+    /// pays: on GPUs, whose neighbouring invocations run the same instruction, but not on drivers
+    /// on the processor.
+    pub sort_queues: Option<bool>,
     /// Where compiled kernels are kept.
     pub cache_folder: Option<PathBuf>,
 }
@@ -42,6 +46,7 @@ impl Default for GpuOptions {
         Self {
             wanted: Wanted::Best,
             material_stage: MaterialStage::default(),
+            sort_queues: None,
             cache_folder: None,
         }
     }

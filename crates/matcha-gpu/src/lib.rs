@@ -6,6 +6,8 @@
 //!   crate is built), host layers (`src/wgsl/*.wgsl`) and accessors.
 //! * [`pipeline`]: kernels compiled, and kept on disk.
 //! * [`batch`]: dispatches, timed.
+//! * [`sort`]: a counting sort of queues.
+//! * [`table`]: the material cache's table.
 //! * [`trace`]: the hierarchy in compressed nodes, and the walk of rays through it.
 //! * [`wavefront`]: a scene's paths on a device; [`backend`]: that as what renders.
 //!
@@ -23,6 +25,8 @@ pub mod machine;
 pub mod memory;
 pub mod pipeline;
 pub mod shader;
+pub mod sort;
+pub mod table;
 #[doc(hidden)]
 pub mod testing;
 pub mod trace;

@@ -41,6 +41,14 @@ pub enum LinkError {
     /// No shader declares that constant.
     #[error("no shader declares the constant \"{0}\"")]
     NoConstant(String),
+    /// What a test wants to corrupt.
+    #[error("the item \"{item}\" has no text \"{text}\"")]
+    NotThere {
+        /// The item.
+        item: String,
+        /// The text.
+        text: String,
+    },
     /// A section is in none of the memories that a kernel is bound to.
     #[error(
         "the kernel \"{kernel}\" reaches into section \"{section}\", which is in none of its memories"
@@ -136,6 +144,23 @@ impl Library {
         let found = self.items.get_mut(name);
         let item = found.ok_or_else(|| LinkError::NoConstant(name.to_owned()))?;
         item.text = constants_text(&[(name.to_owned(), value)]);
+        Ok(())
+    }
+
+    /// Puts `new` in the place of `old` in an item: for tests that must fail.
+    ///
+    /// # Errors
+    /// If there is no such item, or `old` is not in it.
+    #[doc(hidden)]
+    pub fn corrupt(&mut self, name: &str, old: &str, new: &str) -> Result<(), LinkError> {
+        let found = self.items.get_mut(name);
+        let item = found.filter(|item| item.text.contains(old));
+        let item = item.ok_or_else(|| LinkError::NotThere {
+            item: name.to_owned(),
+            text: old.to_owned(),
+        })?;
+        let text = item.text.replace(old, new);
+        *item = items(&text).swap_remove(0);
         Ok(())
     }
 

@@ -13,6 +13,7 @@ mod totals;
 
 pub use totals::WavefrontStatistics;
 
+use crate::adapter::Kind;
 use crate::backend::{GpuOptions, MaterialStage};
 use crate::batch::Runner;
 use crate::device::Device;
@@ -85,10 +86,12 @@ impl Wavefront {
         let mut others = tables.clone();
         others.push(&scene);
         let offset = table::level_offset(&options.cache);
+        let software = device.report().kind == Kind::Software;
         let setting = state::Setting {
             seed,
             offset,
             pixels: width * height,
+            sorted: gpu.sort_queues.unwrap_or(!software),
         };
         let slots = SlotMemory::place(device, &library, &flat, &setting, &others)?;
         let form = Form {
@@ -98,6 +101,9 @@ impl Wavefront {
             light_programs: flat.has_light_programs(),
             transparent: flat.has_transparent_shadows(),
             layers: flat.rules().transparent_bounces + 1,
+            sorted: setting.sorted,
+            programs: flat.programs().count() as u32,
+            regions: flat.programs().regions() as u32,
         };
         let kernels = Kernels::new(
             pipelines,

@@ -6,6 +6,7 @@ use crate::error::GpuError;
 use crate::memory::Memory;
 use crate::pipeline::{Kernel, KernelSource, Pipelines};
 use crate::shader::Library;
+use crate::sort::CountingSort;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -79,6 +80,12 @@ pub(super) struct Form {
     pub transparent: bool,
     /// Most transparent surfaces on the way of a shadow ray.
     pub layers: u32,
+    /// Hits and misses are sorted by what is to be evaluated.
+    pub sorted: bool,
+    /// Number of programs.
+    pub programs: u32,
+    /// Number of regions of all programs.
+    pub regions: u32,
 }
 
 /// The kernels that a form needs.
@@ -98,6 +105,8 @@ pub(super) struct Kernels {
     layer: Option<Arc<Kernel>>,
     pass: Option<Arc<Kernel>>,
     collect: Arc<Kernel>,
+    sort_slots: Option<CountingSort>,
+    sort_misses: Option<CountingSort>,
 }
 
 impl Kernels {
@@ -110,7 +119,7 @@ impl Kernels {
         table: Option<&Memory>,
         form: &Form,
     ) -> Result<Kernels, GpuError> {
-        let kernel = |name, memories: &[&Memory]| {
+        let kernel = |name: &str, memories: &[&Memory]| {
             pipelines.kernel(&KernelSource {
                 name,
                 library,
@@ -118,13 +127,21 @@ impl Kernels {
                 constants: &[],
             })
         };
-        let plain = |name| kernel(name, &[scene, slots]);
+        let plain = |name: &str| kernel(name, &[scene, slots]);
         let cached = |name, wanted: bool| match table {
             Some(table) if wanted => kernel(name, &[scene, slots, table]).map(Some),
             _ => Ok(None),
         };
         let optional = |name, wanted: bool| wanted.then(|| plain(name)).transpose();
+        let sort = |count, place, wanted: bool| {
+            let sort = || CountingSort::new(count, place, plain);
+            wanted.then(sort).transpose()
+        };
+        let sort_slots = form.sorted && form.programs > 1;
+        let sort_misses = form.sorted && form.regions > 1 && form.cached && !form.inline;
         Ok(Kernels {
+            sort_slots: sort("wave_sort_slots", "wave_place_slots", sort_slots)?,
+            sort_misses: sort("wave_sort_misses", "wave_place_misses", sort_misses)?,
             measure: plain("wave_measure")?,
             regenerate: plain("wave_regenerate")?,
             traverse: plain("wave_traverse")?,
@@ -268,6 +285,19 @@ impl Stages<'_> {
         batch.dispatch(stage, kernel, &[scene, slots, table], &[argument], extent);
     }
 
+    /// Sorts a queue.
+    fn sort(
+        &self,
+        batch: &mut Batch,
+        sort: &CountingSort,
+        queue: u32,
+        arguments: &[u32],
+        keys: u32,
+    ) {
+        let extent = Extent::Indirect(self.slots.sizes(), u64::from(queue) * 12);
+        sort.dispatch(batch, &self.memories(), arguments, keys, extent);
+    }
+
     /// Makes the sizes of dispatches over queues, and empties others.
     fn measure(&self, batch: &mut Batch, queues: &[u32], empty: &[u32]) -> Result<(), GpuError> {
         let arguments = [bits(queues), bits(empty)];
@@ -349,6 +379,17 @@ impl Stages<'_> {
     /// Evaluates programs at a place.
     fn networks(&self, batch: &mut Batch, place: Place) -> Result<(), GpuError> {
         let kernels = self.kernels;
+        if let Some(sort) = kernels.sort_slots.as_ref().filter(|_| place.surface) {
+            let programs = self.form.programs;
+            // One more for what has none.
+            self.sort(
+                batch,
+                sort,
+                place.queue,
+                &[place.at, programs],
+                programs + 1,
+            );
+        }
         if place.surface && self.form.cached {
             if let Some(inline) = &kernels.inline {
                 self.over_cached(batch, "evaluate", inline, place.queue, place.at);
@@ -357,7 +398,11 @@ impl Stages<'_> {
             if let (Some(look_up), Some(misses)) = (&kernels.look_up, &kernels.misses) {
                 self.over_cached(batch, "lookup", look_up, place.queue, place.at);
                 self.measure(batch, &[queue::MISSES], &[])?;
-                self.over_cached(batch, "misses", misses, queue::MISSES, 0);
+                if let Some(sort) = &kernels.sort_misses {
+                    self.sort(batch, sort, queue::MISSES, &[], self.form.regions);
+                }
+                let sorted = kernels.sort_misses.is_some().into();
+                self.over_cached(batch, "misses", misses, queue::MISSES, sorted);
                 self.measure(batch, &[], &[queue::MISSES])?;
             }
         }

@@ -5,6 +5,7 @@ use crate::device::Device;
 use crate::error::GpuError;
 use crate::memory::{Memory, Sections, buffer};
 use crate::shader::Library;
+use crate::sort;
 use matcha_render::backend::Control;
 use matcha_render::film::{Film, PixelSums};
 use matcha_render::flat::{FlatScene, NO_PROGRAM};
@@ -76,6 +77,8 @@ pub(super) struct Setting {
     pub offset: f32,
     /// Pixels of the picture.
     pub pixels: u32,
+    /// Queues are sorted.
+    pub sorted: bool,
 }
 
 /// What stages counted since the last time.
@@ -112,7 +115,7 @@ impl SlotMemory {
         others: &[&Memory],
     ) -> Result<SlotMemory, GpuError> {
         // As many as one binding holds, and not more than are of use.
-        let words: u64 = sections(library, flat, 1)?
+        let words: u64 = sections(library, flat, setting, 1)?
             .iter()
             .map(|(_, length)| length)
             .sum();
@@ -145,8 +148,11 @@ impl SlotMemory {
         capacity: u32,
     ) -> Result<Memory, GpuError> {
         let mut placed = Sections::new();
-        for (name, length) in sections(library, flat, capacity.into())? {
+        for (name, length) in sections(library, flat, setting, capacity.into())? {
             placed.zeroed(library, name, length)?;
+        }
+        if setting.sorted {
+            sort::add_keys(&mut placed, library, sort_keys(flat).into())?;
         }
         placed.zeroed(library, "wave_counts", QUEUES)?;
         placed.zeroed(library, "wave_sizes", 3 * QUEUES)?;
@@ -256,13 +262,21 @@ impl SlotMemory {
     }
 }
 
+/// Different keys that queues are sorted by: programs and none, or regions.
+fn sort_keys(flat: &FlatScene) -> u32 {
+    let programs = flat.programs();
+    (programs.count() + 1).max(programs.regions()) as u32
+}
+
 /// Sections that have so many elements for each slot.
 fn sections(
     library: &Library,
     flat: &FlatScene,
+    setting: &Setting,
     slots: u64,
 ) -> Result<Vec<(&'static str, u64)>, GpuError> {
     let programs = flat.programs();
+    let misses = slots * u64::from(programs.most_regions().max(1));
     let mut all = vec![
         ("slot_next", slots),
         ("slot_state", slots),
@@ -275,11 +289,15 @@ fn sections(
             "output_rows",
             slots * u64::from(programs.output_rows().max(1)),
         ),
-        (
-            "misses",
-            slots * MISS_ROWS * u64::from(programs.most_regions().max(1)),
-        ),
+        ("misses", misses * MISS_ROWS),
     ];
+    if setting.sorted {
+        all.extend([("sort_slots", slots), ("sort_misses", misses)]);
+        all.extend(sort::ITEMS.map(|name| (name, misses)));
+    } else {
+        // A kernel reaches into it, but never will.
+        all.push(("sort_misses", 1));
+    }
     for columns in ["paths", "hits", "tasks", "film"] {
         all.push((columns, slots * u64::from(library.section(columns)?.stride)));
     }

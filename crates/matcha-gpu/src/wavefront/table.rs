@@ -1,17 +1,16 @@
-//! The material cache's table in the device's memory: group 3.
+//! The material cache's table of a rendering: group 3.
 
 use crate::device::Device;
 use crate::error::GpuError;
-use crate::memory::{Memory, Sections};
+use crate::memory::Memory;
 use crate::shader::Library;
+use crate::table;
 use matcha_cache::TableSize;
 use matcha_render::backend::{CacheMode, CacheStatistics};
 use matcha_render::flat::FlatScene;
 
 /// Number of the bind group.
 const GROUP: u32 = 3;
-/// Counters of the section `table_counts`: see `table.wgsl`.
-const COUNTS: u64 = 3;
 
 /// Places the table that a mode asks for, smaller if the device has no memory for it and nobody
 /// asked for the size; `None` where nothing is to be kept.
@@ -58,23 +57,7 @@ pub(super) fn place(
 }
 
 fn place_size(device: &Device, library: &Library, size: TableSize) -> Result<Memory, GpuError> {
-    let capacity = size.capacity();
-    if size.cells > u64::from(u32::MAX) || capacity > u64::from(u32::MAX) {
-        return Err(GpuError::OutOfMemory {
-            what: "the material cache".to_owned(),
-            bytes: size.bytes(),
-        });
-    }
-    let mut sections = Sections::new();
-    sections.filled(library, "table_size", vec![size.cells as u32, size.entries])?;
-    sections.zeroed(library, "table_counts", COUNTS)?;
-    if device.has_atomics_64() {
-        sections.zeroed(library, "table_entries", capacity)?;
-    } else {
-        sections.zeroed(library, "table_fingerprints", capacity)?;
-        sections.zeroed(library, "table_values", capacity)?;
-    }
-    sections.place(device, GROUP, &[])
+    table::sections(library, size)?.place(device, GROUP, &[])
 }
 
 /// Added to the level of the virtual texture.
@@ -87,15 +70,13 @@ pub(super) fn level_offset(mode: &CacheMode) -> f32 {
 
 /// What became of insertions so far. A device that fails says so elsewhere.
 pub(super) fn read_counts(memory: &Memory) -> CacheStatistics {
-    let counts = memory.read("table_counts", 0, COUNTS).unwrap_or_default();
-    let count = |k: usize| u64::from(counts.get(k).copied().unwrap_or(0));
-    let entries = ["table_entries", "table_fingerprints"].map(|name| memory.length(name));
-    let capacity = entries.into_iter().flatten().next().unwrap_or(0);
+    let counts = table::counts(memory).unwrap_or_default();
+    let capacity = table::capacity(memory);
     CacheStatistics {
-        inserts: count(0),
-        refused: count(1),
-        races_lost: count(2),
-        occupied: count(0),
+        inserts: counts.stored,
+        refused: counts.refused,
+        races_lost: counts.lost,
+        occupied: counts.stored,
         capacity,
         bytes: 8 * capacity,
         ..CacheStatistics::default()

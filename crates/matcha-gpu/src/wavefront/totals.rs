@@ -22,8 +22,8 @@ pub struct WavefrontStatistics {
     pub network_seconds: f64,
 }
 
-/// Stages that evaluate networks or look their nodes up.
-const NETWORKS: [&str; 3] = ["lookup", "misses", "evaluate"];
+/// Stages that evaluate networks or look their nodes up, or put hits in order for it.
+const NETWORKS: [&str; 4] = ["sort", "lookup", "misses", "evaluate"];
 
 /// Sums of counts.
 #[derive(Clone, Copy, Debug, Default)]

@@ -11,6 +11,7 @@
 //@ read light_programs
 
 const MISS_ROWS = 6u;
+const MISS_REGION = 2u;
 
 // Where paths hit surfaces.
 const AT_HITS = 0u;
@@ -169,7 +170,7 @@ fn push_miss(slot: u32, program: u32, region: u32, texel: ProgramTexel) {
     let k = add_wave_counts(QUEUE_MISSES, 1u);
     put_misses(k, slot);
     put_misses(rows + k, program);
-    put_misses(2u * rows + k, region);
+    put_misses(MISS_REGION * rows + k, region);
     put_misses(3u * rows + k, bitcast<u32>(texel.level));
     put_misses(4u * rows + k, bitcast<u32>(texel.i));
     put_misses(5u * rows + k, bitcast<u32>(texel.j));
@@ -202,12 +203,15 @@ fn wave_look_up(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     count_look_ups(at, slot, values, found);
 }
 
-// Evaluates what was not found, and stores it.
+// Evaluates what was not found, and stores it. Argument 0 is 1 where misses are sorted.
 @compute @workgroup_size(64)
 fn wave_misses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
-    let k = invocation_number(group, local);
+    var k = invocation_number(group, local);
     if k >= queue_count(QUEUE_MISSES) {
         return;
+    }
+    if argument(0u) != 0u {
+        k = word_sort_misses(k);
     }
     let rows = count_misses() / MISS_ROWS;
     let texel = ProgramTexel(
@@ -215,7 +219,7 @@ fn wave_misses(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
         bitcast<i32>(word_misses(4u * rows + k)),
         bitcast<i32>(word_misses(5u * rows + k)),
     );
-    compute_region(word_misses(rows + k), program_region(word_misses(2u * rows + k)), texel, word_misses(k));
+    compute_region(word_misses(rows + k), program_region(word_misses(MISS_REGION * rows + k)), texel, word_misses(k));
 }
 
 // Puts the values of a program's regions, as they are in the slot's rows, into registers.

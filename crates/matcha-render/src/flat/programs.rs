@@ -75,6 +75,11 @@ impl FlatPrograms {
             .unwrap_or(0)
     }
 
+    /// Number of programs.
+    pub fn count(&self) -> usize {
+        self.heads.len()
+    }
+
     /// Regions of all programs.
     pub fn regions(&self) -> usize {
         self.regions.len()

@@ -68,6 +68,7 @@ fn gpu_options(options: &Options) -> Result<GpuOptions> {
             arguments::MaterialStage::Inline => MaterialStage::Inline,
             arguments::MaterialStage::Split => MaterialStage::Split,
         },
+        sort_queues: None,
         cache_folder: user_cache_folder().map(|folder| folder.join("kernels")),
     })
 }
