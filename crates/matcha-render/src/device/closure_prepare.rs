@@ -203,7 +203,7 @@ fn closure_prepare_glass(
         if multiple {
             tint = max3(closure_triple(rows, GLASS_ROW_COLOR), Vec3::ZERO);
             if !context.refractive_caustics {
-                tint = tint * closure_mean_remapped(lobe.ior, lobe.f0);
+                tint *= closure_mean_remapped(lobe.ior, lobe.f0);
             }
         }
         let bounces = ClosureMultiple {

@@ -182,7 +182,8 @@ pub fn light_choose_group(view: LightView, p: Vec3, n: Vec3, select: f32) -> Lig
             choice.probability *= part.probability;
             choice.place = part.place;
         }
-        if !(choice.probability > 0.0) {
+        let possible = choice.probability > 0.0;
+        if !possible {
             return choice;
         }
         let link = view.groups[block as usize].link[lane as usize];
@@ -204,7 +205,8 @@ pub fn light_group_probability(view: LightView, slot: u32, p: Vec3, n: Vec3) -> 
         let block = at / 8;
         let ranges = light_ranges(view, block, p, n);
         probability *= light_lane_probability(ranges, block, at % 8);
-        if block == 0 || !(probability > 0.0) {
+        let possible = probability > 0.0;
+        if block == 0 || !possible {
             return probability;
         }
         at = view.group_parents[block as usize];

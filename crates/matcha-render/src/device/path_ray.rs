@@ -9,7 +9,7 @@ use matcha_shade::device::math::{
 /// Near the world's origin, in this distance of an axis, offsets have a fixed length.
 pub const RAY_NEAR_ORIGIN: f32 = 0.03125;
 /// That length, as a fraction of the normal.
-pub const RAY_FIXED_OFFSET: f32 = 0.000_015_258_789_062_5;
+pub const RAY_FIXED_OFFSET: f32 = 1.0 / 65536.0;
 /// Offset elsewhere, units in the last place.
 pub const RAY_ULPS: f32 = 256.0;
 /// Cosine to the facet above which shadow rays start at the facet itself.

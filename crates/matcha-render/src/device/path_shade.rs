@@ -1,5 +1,8 @@
 //! Everything that happens to a path at one hit, its closures being known.
 
+// A list of what it needs is plainer than a struct for one call.
+#![allow(clippy::too_many_arguments)]
+
 use glam::{Vec2, Vec3};
 use matcha_shade::device::math::{splat3, vec2};
 

@@ -263,7 +263,7 @@ pub fn path_clamped(light: Vec3, bounce: u32, settings: PathSettings) -> Vec3 {
 /// Veach 1997, section 9.2.4); 1 where `a` stands for a certainty (the largest number).
 #[inline]
 pub fn path_power_heuristic(a: f32, b: f32) -> f32 {
-    if !(a < MAX) {
+    if a >= MAX || !path_is_finite(a) {
         return 1.0;
     }
     // Squares of large densities overflow; the ratio is limited.

@@ -103,7 +103,7 @@ pub fn path_survives(path: &mut Path) -> bool {
         let draw = sobol_1d(path.seed, path.sample, path.dimension + DRAW_ROULETTE);
         lives = draw < survival;
     }
-    path.throughput = path.throughput / survival;
+    path.throughput /= survival;
     path.dimension += DRAW_PER_SURFACE;
     lives
 }

@@ -27,9 +27,9 @@ impl ExactCache {
 impl NodeCache for ExactCache {
     fn look_up(&mut self, region: &Region, texels: &Texels, out: &mut Rows, found: &mut [bool]) {
         self.calls += 1;
-        for k in 0..texels.len() {
+        for (k, found) in found.iter_mut().enumerate().take(texels.len()) {
             let value = self.value(region, texels.get(k));
-            found[k] = value.is_some();
+            *found = value.is_some();
             for i in 0..region.width() {
                 // What is not found must not be read.
                 out.set(i, k, value.as_ref().map_or(f32::NAN, |v| v[i]));
