@@ -26,6 +26,9 @@ struct Shared {
     report: AdapterReport,
     key: Option<String>,
     trouble: Arc<Mutex<Option<GpuError>>>,
+    /// Held while commands are handed over: a thread must not wait for a number that wgpu has
+    /// given away, but not yet noted, in another thread.
+    submitting: Mutex<()>,
     patience: Duration,
     arguments_layout: wgpu::BindGroupLayout,
 }
@@ -70,6 +73,7 @@ impl Device {
                 report,
                 key,
                 trouble,
+                submitting: Mutex::default(),
                 patience,
             }),
         })
@@ -145,7 +149,21 @@ impl Device {
 
     /// Hands commands over.
     pub fn submit(&self, commands: wgpu::CommandEncoder) -> wgpu::SubmissionIndex {
-        self.queue().submit([commands.finish()])
+        self.hand_over([commands.finish()])
+    }
+
+    /// Hands over what was written to buffers.
+    pub fn flush(&self) -> wgpu::SubmissionIndex {
+        self.hand_over([])
+    }
+
+    fn hand_over<const N: usize>(
+        &self,
+        commands: [wgpu::CommandBuffer; N],
+    ) -> wgpu::SubmissionIndex {
+        let submitting = self.shared.submitting.lock();
+        let _held = submitting.unwrap_or_else(PoisonError::into_inner);
+        self.queue().submit(commands)
     }
 
     /// Waits until a submission is done.
@@ -164,11 +182,17 @@ impl Device {
             match polled {
                 Ok(_) => return Ok(()),
                 Err(wgpu::PollError::Timeout) => {}
+                // It did not take the work: it is gone, whether its driver says so or not.
                 Err(error) => {
-                    return Err(GpuError::Invalid {
-                        what: "to wait".to_owned(),
+                    let lost = GpuError::Lost {
                         message: one_line(&error),
-                    });
+                    };
+                    let mut trouble = self
+                        .shared
+                        .trouble
+                        .lock()
+                        .unwrap_or_else(PoisonError::into_inner);
+                    return Err(trouble.get_or_insert(lost).clone());
                 }
             }
             if start.elapsed() > self.shared.patience {

@@ -83,7 +83,10 @@ pub enum PlacementError {
         limit: u64,
     },
     /// Offsets are words.
-    #[error("section {0} has more than 4294967295 elements")]
+    #[error(
+        "section {0} has more than 4294967295 elements: render with a smaller cache (--cells), smaller pictures, or \
+         --device cpu"
+    )]
     TooLong(String),
 }
 

@@ -4,6 +4,7 @@ use super::buffer;
 use crate::device::Device;
 use crate::error::GpuError;
 use std::sync::mpsc;
+use std::time::Duration;
 
 /// Bytes on the way at once: staging memory is bounded.
 const CHUNK: u64 = 32 << 20;
@@ -23,7 +24,7 @@ pub(super) fn upload(
         at += chunk.len() as u64 * 4;
         if words.len() as u64 * 4 > CHUNK {
             // Staging memory is given back only when it has been copied.
-            let submission = device.queue().submit([]);
+            let submission = device.flush();
             device.wait(&submission)?;
         }
     }
@@ -70,7 +71,8 @@ pub(crate) fn mapped_words(
         what: "to read".to_owned(),
         message,
     };
-    match mapped.try_recv() {
+    // Another thread's waiting may be about to say so.
+    match mapped.recv_timeout(Duration::from_secs(10)) {
         Ok(Ok(())) => {}
         Ok(Err(error)) => return Err(refused(error.to_string())),
         Err(error) => return Err(refused(error.to_string())),

@@ -45,8 +45,8 @@ fn word_ClosureTables_entry(i: u32) -> u32 {{ return bitcast<u32>(probe_entry(i)
 fn count_ClosureTables_entry() -> u32 {{ return {CLOSURE_TABLE_END}u; }}
 fn run(point: Point, immediate: u32) -> vec4u {{
     seed = inputs[point.first];
-    var set: LobeSet;
-    let r = probe_lobes(&set, seed, {kind}u);
+    var lobes: LobeSet;
+    let r = probe_lobes(&lobes, seed, {kind}u);
     return bitcast<vec4u>(vec4f(r[{first}], r[{first} + 1], r[{first} + 2], r[{first} + 3]));
 }}
 "
