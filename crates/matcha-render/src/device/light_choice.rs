@@ -10,7 +10,8 @@ use crate::device::light_group::{
 };
 use crate::device::light_tree::LIGHT_ONE_BELOW;
 use crate::device::light_view::{
-    LIGHT_GROUP_IS_BLOCK, LIGHT_GROUP_WHAT, LIGHT_NONE, LIGHT_OPENS, LIGHT_RECTANGLES, LightView,
+    LIGHT_GROUP_IS_BLOCK, LIGHT_GROUP_WHAT, LIGHT_NONE, LIGHT_OPENS, LIGHT_RECTANGLES,
+    LIGHT_UNSURE, LightView,
 };
 use crate::device::light_world::light_world_factor;
 use glam::Vec3;
@@ -63,6 +64,17 @@ pub fn light_ranges(view: LightView, block: u32, p: Vec3, n: Vec3) -> LightRange
     let world = view.groups[block as usize].world;
     if world != LIGHT_NONE {
         most[world as usize] *= light_world_factor(view, n);
+    }
+    if (flags & LIGHT_UNSURE) != 0 {
+        // The least that a world brings is nothing everywhere, and says nothing.
+        least[0] = 0.0;
+        least[1] = 0.0;
+        least[4] = 0.0;
+        least[5] = 0.0;
+    }
+    if block == 0 && (flags & (LIGHT_OPENS << 1)) != 0 {
+        // Of lights at infinity the bounds of two together are no better than their sum.
+        most[1] = most[4] + most[5];
     }
     LightRanges { most, least }
 }
@@ -182,7 +194,7 @@ pub fn light_choose_group(view: LightView, p: Vec3, n: Vec3, select: f32) -> Lig
             choice.probability *= part.probability;
             choice.place = part.place;
         }
-        if !(choice.probability > 0.0) {
+        if choice.probability <= 0.0 {
             return choice;
         }
         let link = view.groups[block as usize].link[lane as usize];
@@ -204,7 +216,7 @@ pub fn light_group_probability(view: LightView, slot: u32, p: Vec3, n: Vec3) -> 
         let block = at / 8;
         let ranges = light_ranges(view, block, p, n);
         probability *= light_lane_probability(ranges, block, at % 8);
-        if block == 0 || !(probability > 0.0) {
+        if block == 0 || probability <= 0.0 {
             return probability;
         }
         at = view.group_parents[block as usize];

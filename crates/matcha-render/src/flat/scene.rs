@@ -143,8 +143,8 @@ fn light_sections<'a>(view: &'a LightView<'a>) -> Vec<Section<'a>> {
         };
     }
     fields!(
-        nodes parents slots triangles first of_primitive materials lights local suns boxes order world;
-        root world_kind world_width world_height world_visibility world_radiance world_irradiance
+        groups group_parents nodes parents slots triangles first of_primitive materials lights suns boxes order world;
+        world_kind world_width world_height world_visibility world_slot world_radiance world_irradiance
         world_harmonics
     )
 }
