@@ -1,8 +1,8 @@
 //! Lights: a list of everything that shines, and next-event estimation over it.
 //!
-//! Analytic lights, the emissive triangles of an instance together, and the world are groups.
-//! One group is drawn as Cycles' light tree would, and where it is an instance one of its
-//! triangles from a light tree of the instance. Everything that happens while rendering is
+//! Analytic lights, the emissive triangles of instances, and the world are groups. One group
+//! is drawn as Cycles' light tree would, and a triangle of it from a tree of its own.
+//! Everything that happens while rendering is
 //! device code over a [`LightView`]: `light_sample` and what it calls. This module collects
 //! the lights of a scene, and calls that code for the processor.
 //!
@@ -40,10 +40,11 @@ use crate::device::light_sample::{
     LIGHT_EMITS_CONSTANT, LIGHT_EMITS_NOTHING, LIGHT_EMITS_SURFACE, LIGHT_EMITS_TREE,
     LIGHT_IS_ANALYTIC, LIGHT_IS_NONE, LIGHT_IS_TRIANGLE, LightDraw, LightEmission, light_sample,
 };
-use crate::device::light_view::{LIGHT_GROUP_IS_TREE, LIGHT_NONE, LightMaterial};
+use crate::device::light_view::{LIGHT_NONE, LightMaterial};
 use crate::device::light_visible::light_nearest;
 use crate::scene::Scene;
 use glam::{Vec2, Vec3};
+use std::ops::Range;
 
 /// Names a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -204,50 +205,57 @@ impl LightSet {
         let world = world.filter(|_| scene.world.importance_sample);
         let sees_world = u32::from(visibility_mask(&scene.world.visibility));
         let distant = Distant::new(suns, world, sees_world);
-        let (tree, meshes) = hang_triangles(&triangles, &emission);
         let mut set = Self {
             bvh: LightBvh::build(&analytic),
             materials: emission.iter().map(MaterialEmission::stored).collect(),
+            tree: LightTree::new(triangles.list.len()),
             triangles,
             analytic,
-            tree,
             distant,
             ..Self::default()
         };
-        set.build_groups(&local, &meshes);
+        set.build_groups(&local, &emission);
         set
     }
 
-    /// Builds the tree of groups, and tells everything in it its slot.
-    fn build_groups(&mut self, local: &[u32], meshes: &[(u32, LightBounds)]) {
-        let of_light = |&i: &u32| analytic::group(&self.analytic[i as usize].shape, i);
-        let of_mesh =
-            |&(root, bounds): &(u32, LightBounds)| Group::boxed(bounds, LIGHT_GROUP_IS_TREE | root);
+    /// Builds the tree of groups and the trees below, and tells everything its slot.
+    fn build_groups(&mut self, local: &[u32], emission: &[Option<MaterialEmission>]) {
+        let bounds: Vec<LightBounds> = self
+            .triangles
+            .list
+            .iter()
+            .filter_map(|t| {
+                Some(triangles::bounds(
+                    t,
+                    emission[t.material() as usize].as_ref()?,
+                ))
+            })
+            .collect();
+        let meshes = self.triangles.by_instance();
+        let light = |&i: &u32| analytic::group(&self.analytic[i as usize].shape, i);
+        let mesh = |range: &Range<u32>| triangles::group(&bounds[as_usize(range)]);
         let near: Vec<Group> = local
             .iter()
-            .map(of_light)
-            .chain(meshes.iter().map(of_mesh))
+            .map(light)
+            .chain(meshes.iter().map(mesh))
             .collect();
+        let suns = self.distant.suns();
         let world = self.distant.world_irradiance().map(Group::world);
-        let far: Vec<Group> = self
-            .distant
-            .suns()
-            .iter()
-            .map(of_light)
-            .chain(world)
-            .collect();
-        self.groups = GroupTree::build(&near, &far);
+        let far: Vec<Group> = suns.iter().map(light).chain(world).collect();
+        let tree = &mut self.tree;
+        self.groups = GroupTree::build(&near, &far, &mut |leaves, slot| {
+            let ranges = leaves
+                .iter()
+                .map(|&leaf| &meshes[leaf as usize - local.len()]);
+            let emitters: Vec<u32> = ranges.cloned().flatten().collect();
+            let bounds: Vec<_> = emitters.iter().map(|&e| bounds[e as usize]).collect();
+            tree.add(&emitters, &bounds, slot)
+        });
         let (of_near, of_far) = self.groups.slots.split_at(near.len());
-        let (of_local, of_meshes) = of_near.split_at(local.len());
-        let (of_suns, of_world) = of_far.split_at(self.distant.suns().len());
-        let lights = local.iter().chain(self.distant.suns());
-        for (&light, &slot) in lights.zip(of_local.iter().chain(of_suns)) {
+        for (&light, &slot) in local.iter().zip(of_near).chain(suns.iter().zip(of_far)) {
             self.analytic[light as usize].slot = slot;
         }
-        for (&(root, _), &slot) in meshes.iter().zip(of_meshes) {
-            self.tree.hang(root, slot);
-        }
-        self.world_slot = of_world.first().copied().unwrap_or(LIGHT_NONE);
+        self.world_slot = of_far.get(suns.len()).copied().unwrap_or(LIGHT_NONE);
     }
 
     /// The lights as device code reads them.
@@ -364,31 +372,8 @@ impl LightSet {
     }
 }
 
-/// A tree for the triangles of each instance; the trees' roots and bounds.
-fn hang_triangles(
-    triangles: &Triangles,
-    emission: &[Option<MaterialEmission>],
-) -> (LightTree, Vec<(u32, LightBounds)>) {
-    let mut tree = LightTree::default();
-    let of_instance = triangles.list.chunk_by(|a, b| a.instance == b.instance);
-    let meshes = of_instance
-        .map(|list| {
-            let bounds: Vec<LightBounds> = list
-                .iter()
-                .filter_map(|t| {
-                    let emission = emission[t.material() as usize].as_ref()?;
-                    Some(triangles::bounds(t, emission))
-                })
-                .collect();
-            let (root, mut all) = tree.add(&bounds);
-            if all.two_sided {
-                // Some normal or its opposite is near every direction.
-                (all.cos_normals, all.two_sided) = (-1.0, false);
-            }
-            (root, all)
-        })
-        .collect();
-    (tree, meshes)
+fn as_usize(range: &Range<u32>) -> Range<usize> {
+    range.start as usize..range.end as usize
 }
 
 #[cfg(test)]

@@ -10,7 +10,8 @@ use crate::device::light_group::{
 };
 use crate::device::light_tree::LIGHT_ONE_BELOW;
 use crate::device::light_view::{
-    LIGHT_GROUP_IS_BLOCK, LIGHT_GROUP_WHAT, LIGHT_NONE, LIGHT_OPENS, LIGHT_RECTANGLES, LightView,
+    LIGHT_GROUP_IS_BLOCK, LIGHT_GROUP_WHAT, LIGHT_NONE, LIGHT_OPENS, LIGHT_RECTANGLES,
+    LIGHT_UNSURE, LightView,
 };
 use crate::device::light_world::light_world_factor;
 use glam::Vec3;
@@ -63,6 +64,17 @@ pub fn light_ranges(view: LightView, block: u32, p: Vec3, n: Vec3) -> LightRange
     let world = view.groups[block as usize].world;
     if world != LIGHT_NONE {
         most[world as usize] *= light_world_factor(view, n);
+    }
+    if (flags & LIGHT_UNSURE) != 0 {
+        // The least that a world brings is nothing everywhere, and says nothing.
+        least[0] = 0.0;
+        least[1] = 0.0;
+        least[4] = 0.0;
+        least[5] = 0.0;
+    }
+    if block == 0 && (flags & (LIGHT_OPENS << 1)) != 0 {
+        // Of lights at infinity the bounds of two together are no better than their sum.
+        most[1] = most[4] + most[5];
     }
     LightRanges { most, least }
 }

@@ -63,6 +63,9 @@ pub const LIGHT_OPENS: u32 = 1;
 /// Bit of [`LightGroups::flags`]: some lane is a rectangle.
 pub const LIGHT_RECTANGLES: u32 = 4;
 
+/// Bit of [`LightGroups::flags`]: in lanes 0, 1, 4 and 5 the world is one of the choices.
+pub const LIGHT_UNSURE: u32 = 8;
+
 /// A block of groups of lights, in eight lanes, of which the first six are used; see
 /// `light_choice`. Fields of a lane are those of `LightGroup`; an empty lane has no power.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
@@ -102,7 +105,7 @@ pub struct LightGroups {
     pub kind: [u32; 8],
     /// What the lanes are: `LIGHT_GROUP_IS_` and an index.
     pub link: [u32; 8],
-    /// [`LIGHT_OPENS`], [`LIGHT_RECTANGLES`].
+    /// [`LIGHT_OPENS`], [`LIGHT_RECTANGLES`], [`LIGHT_UNSURE`].
     pub flags: u32,
     /// Lane that is the world, or [`LIGHT_NONE`].
     pub world: u32,
@@ -196,7 +199,7 @@ pub const LIGHT_WORLD_MAP: u32 = 2;
 /// All lights. Functions over the view are always inlined, so that it is never copied whole.
 ///
 /// Analytic lights, the world and instances with emission are the leaves of the tree of
-/// groups; the triangles of an instance hang in a tree of their own.
+/// groups; emissive triangles hang in trees of their own.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LightView<'a> {
     /// Blocks of the tree of groups, root first.

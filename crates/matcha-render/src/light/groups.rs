@@ -1,13 +1,17 @@
 //! The tree of groups: analytic lights, instances with emission and the world, local ones
 //! parted from those at infinity at the root; the descent is in
 //! [`crate::device::light_choice`].
+//!
+//! Where there are only instances below, their triangles hang in one light tree: it is eight
+//! wide and made for many, and a picture does not depend on which triangle is tried, because
+//! scattered rays meet what next-event estimation finds.
 
 use super::tree_build::{self, BinaryLink, BinaryNode};
 use crate::device::light_group::{LIGHT_GROUP_BOX, LIGHT_GROUP_DISTANT, LIGHT_GROUP_RECTANGLE};
 use crate::device::light_importance::LightBounds;
 use crate::device::light_view::{
-    LIGHT_GROUP_IS_BLOCK, LIGHT_GROUP_IS_WORLD, LIGHT_GROUP_WHAT, LIGHT_NONE, LIGHT_OPENS,
-    LIGHT_RECTANGLES, LightGroups, LightView,
+    LIGHT_GROUP_IS_BLOCK, LIGHT_GROUP_IS_TREE, LIGHT_GROUP_IS_WORLD, LIGHT_GROUP_WHAT, LIGHT_NONE,
+    LIGHT_OPENS, LIGHT_RECTANGLES, LIGHT_UNSURE, LightGroups, LightView,
 };
 use bytemuck::Zeroable;
 use glam::Vec3;
@@ -60,6 +64,14 @@ impl Group {
         }
     }
 
+    fn is_tree(&self) -> bool {
+        self.link & LIGHT_GROUP_WHAT == LIGHT_GROUP_IS_TREE
+    }
+
+    fn is_world(&self) -> bool {
+        self.link & LIGHT_GROUP_WHAT == LIGHT_GROUP_IS_WORLD
+    }
+
     fn inner(bounds: LightBounds, distant: bool) -> Self {
         let kind = if distant {
             LIGHT_GROUP_DISTANT
@@ -91,14 +103,20 @@ pub struct GroupTree {
     blocks: Vec<LightGroups>,
     /// Slot that holds each block; unused for the root.
     parents: Vec<u32>,
-    /// Slot of each leaf: the local ones first, then those at infinity.
+    /// Slot of each leaf that is not a tree: the local ones first, then those at infinity.
     pub slots: Vec<u32>,
 }
+
+/// Makes one tree of the leaves with the given numbers, all of them trees, that hangs in the
+/// given slot; returns its root.
+pub type JoinTrees<'a> = dyn FnMut(&[u32], u32) -> u32 + 'a;
 
 /// One of two binary trees: leaves and what is above them.
 struct Half<'a> {
     leaves: &'a [Group],
     nodes: Vec<BinaryNode>,
+    /// By node: there are only emissive triangles below.
+    surfaces: Vec<bool>,
     distant: bool,
     /// Number of the first leaf.
     first: usize,
@@ -107,18 +125,44 @@ struct Half<'a> {
 impl<'a> Half<'a> {
     fn new(leaves: &'a [Group], distant: bool, first: usize) -> Self {
         let bounds: Vec<LightBounds> = leaves.iter().map(|g| g.bounds).collect();
+        let nodes = tree_build::build(&bounds);
+        let mut surfaces = vec![false; nodes.len()];
+        // Children come after their parents.
+        for (index, node) in nodes.iter().enumerate().rev() {
+            surfaces[index] = match node.link {
+                BinaryLink::Emitter(leaf) => leaves[leaf as usize].is_tree(),
+                BinaryLink::Children(first) => {
+                    surfaces[first as usize] && surfaces[first as usize + 1]
+                }
+            };
+        }
         Self {
-            nodes: tree_build::build(&bounds),
             leaves,
+            nodes,
+            surfaces,
             distant,
             first,
         }
     }
+
+    fn leaves_below(&self, node: u32) -> Vec<u32> {
+        let (mut open, mut found) = (vec![node], Vec::new());
+        while let Some(node) = open.pop() {
+            match self.nodes[node as usize].link {
+                BinaryLink::Emitter(leaf) => found.push(leaf),
+                BinaryLink::Children(first) => open.extend([first, first + 1]),
+            }
+        }
+        found
+    }
 }
+
+/// What is still to be put into blocks: a block and the first of its two binary nodes.
+type Open = Vec<(usize, u32)>;
 
 impl GroupTree {
     /// Builds the tree over local groups and those at infinity.
-    pub fn build(local: &[Group], distant: &[Group]) -> Self {
+    pub fn build(local: &[Group], distant: &[Group], join: &mut JoinTrees) -> Self {
         let mut tree = Self {
             slots: vec![LIGHT_NONE; local.len() + distant.len()],
             ..Self::default()
@@ -131,14 +175,21 @@ impl GroupTree {
             Half::new(local, false, 0),
             Half::new(distant, true, local.len()),
         ];
-        let mut open = Vec::new();
+        let mut open = Open::new();
         for (lane, half) in halves.iter().enumerate() {
+            let before = tree.blocks.len();
             if !half.leaves.is_empty() {
-                tree.fill(half, 0, lane, 0, &mut open);
+                tree.fill(half, 0, lane, 0, &mut open, join);
             }
             while let Some((block, node)) = open.pop() {
                 for lane in 0..2 {
-                    tree.fill(half, block, lane, node + lane as u32, &mut open);
+                    tree.fill(half, block, lane, node + lane as u32, &mut open, join);
+                }
+            }
+            if half.leaves.iter().any(Group::is_world) {
+                tree.blocks[0].flags |= LIGHT_UNSURE;
+                for block in &mut tree.blocks[before..] {
+                    block.flags |= LIGHT_UNSURE;
                 }
             }
         }
@@ -155,23 +206,27 @@ impl GroupTree {
     }
 
     /// Puts a binary node into lane 0 or 1 of a block, and its children into the lanes below
-    /// it. Blocks that are still to be filled go to `open` with their first node.
+    /// it.
     fn fill(
         &mut self,
         half: &Half,
         block: usize,
         lane: usize,
         node: u32,
-        open: &mut Vec<(usize, u32)>,
+        open: &mut Open,
+        join: &mut JoinTrees,
     ) {
-        let BinaryLink::Children(first) = half.nodes[node as usize].link else {
-            return self.set(half, block, lane, node, open);
-        };
-        let group = Group::inner(half.nodes[node as usize].bounds, half.distant);
-        self.blocks[block].set(lane, &group);
-        self.blocks[block].flags |= LIGHT_OPENS << lane;
-        for side in 0..2 {
-            self.set(half, block, 2 * lane + 2 + side, first + side as u32, open);
+        let BinaryNode { bounds, link } = half.nodes[node as usize];
+        match link {
+            BinaryLink::Children(first) if !half.surfaces[node as usize] => {
+                self.blocks[block].set(lane, &Group::inner(bounds, half.distant));
+                self.blocks[block].flags |= LIGHT_OPENS << lane;
+                for side in 0..2 {
+                    let below = 2 * lane + 2 + side;
+                    self.set(half, block, below, first + side as u32, open, join);
+                }
+            }
+            _ => self.set(half, block, lane, node, open, join),
         }
     }
 
@@ -182,22 +237,29 @@ impl GroupTree {
         block: usize,
         lane: usize,
         node: u32,
-        open: &mut Vec<(usize, u32)>,
+        open: &mut Open,
+        join: &mut JoinTrees,
     ) {
         let slot = (block * LANES + lane) as u32;
-        match half.nodes[node as usize].link {
+        let BinaryNode { bounds, link } = half.nodes[node as usize];
+        let group = match link {
+            _ if half.surfaces[node as usize] => {
+                let root = join(&half.leaves_below(node), slot);
+                Group::boxed(bounds, LIGHT_GROUP_IS_TREE | root)
+            }
             BinaryLink::Emitter(leaf) => {
                 self.slots[half.first + leaf as usize] = slot;
-                self.blocks[block].set(lane, &half.leaves[leaf as usize]);
+                half.leaves[leaf as usize]
             }
             BinaryLink::Children(first) => {
                 let next = self.add_block(slot);
                 open.push((next, first));
-                let bounds = half.nodes[node as usize].bounds;
-                self.blocks[block].set(lane, &Group::inner(bounds, half.distant));
-                self.blocks[block].link[lane] |= next as u32;
+                let mut group = Group::inner(bounds, half.distant);
+                group.link |= next as u32;
+                group
             }
-        }
+        };
+        self.blocks[block].set(lane, &group);
     }
 
     /// The tree without the lights in it.
@@ -244,7 +306,7 @@ impl LightGroups {
         if group.kind == LIGHT_GROUP_RECTANGLE {
             self.flags |= LIGHT_RECTANGLES;
         }
-        if group.link & LIGHT_GROUP_WHAT == LIGHT_GROUP_IS_WORLD {
+        if group.is_world() {
             self.world = lane as u32;
         }
     }

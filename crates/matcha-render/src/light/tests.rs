@@ -3,6 +3,7 @@
 mod consistency;
 mod cycles;
 mod forms;
+mod groups;
 mod many;
 mod world;
 

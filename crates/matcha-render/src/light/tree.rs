@@ -74,42 +74,42 @@ pub struct LightTree {
 }
 
 impl LightTree {
-    /// Adds a tree over emitters with the bounds `bounds`, whose numbers follow those of the
-    /// emitters before; returns its root and the bounds of all. Where the tree hangs is still
-    /// to be set.
-    ///
-    /// # Panics
-    /// Without bounds.
-    pub fn add(&mut self, bounds: &[LightBounds]) -> (u32, LightBounds) {
-        let root = self.nodes.len();
-        let first = self.slots.len() as u32;
-        let binary = tree_build::build(bounds);
-        let mut added = super::tree_collapse::collapse(&binary);
-        self.parents.resize(root + added.len(), LIGHT_PARENT_GROUP);
-        self.slots.resize(self.slots.len() + bounds.len(), 0);
-        for (index, node) in added.iter_mut().enumerate() {
+    /// Room for emitters; all are still to be added.
+    pub fn new(emitters: usize) -> Self {
+        Self {
+            slots: vec![0; emitters],
+            ..Self::default()
+        }
+    }
+
+    /// Adds a tree over the listed emitters with the bounds `bounds`, that hangs in a slot of
+    /// the groups; returns its root.
+    pub fn add(&mut self, emitters: &[u32], bounds: &[LightBounds], slot_of_root: u32) -> u32 {
+        let root = self.nodes.len() as u32;
+        let mut added = super::tree_collapse::collapse(&tree_build::build(bounds));
+        self.parents.resize(
+            self.nodes.len() + added.len(),
+            LIGHT_PARENT_GROUP | slot_of_root,
+        );
+        for (index, node) in (root..).zip(&mut added) {
             for slot in 0..WIDTH {
-                let here = ((root + index) * WIDTH + slot) as u32;
+                let here = index * WIDTH as u32 + slot as u32;
                 match node.link(slot) {
                     Some(Link::Node(child)) => {
-                        node.link[slot] += root as u32;
-                        self.parents[root + child as usize] = here;
+                        node.link[slot] += root;
+                        self.parents[(root + child) as usize] = here;
                     }
-                    Some(Link::Emitter(emitter)) => {
-                        node.link[slot] += first;
-                        self.slots[(first + emitter) as usize] = here;
+                    Some(Link::Emitter(place)) => {
+                        let emitter = emitters[place as usize];
+                        node.link[slot] = node.link[slot] & !LIGHT_LINK_INDEX | emitter;
+                        self.slots[emitter as usize] = here;
                     }
                     None => {}
                 }
             }
         }
         self.nodes.append(&mut added);
-        (root as u32, binary[0].bounds)
-    }
-
-    /// Says in which slot of the groups a tree hangs.
-    pub fn hang(&mut self, root: u32, slot: u32) {
-        self.parents[root as usize] = LIGHT_PARENT_GROUP | slot;
+        root
     }
 
     /// The trees without the lights in them.

@@ -1,17 +1,20 @@
 //! Emissive triangles of all instances, in world space.
 
+use super::groups::Group;
+use super::tree_build;
 use super::world::luminance;
 use crate::device::light_importance::LightBounds;
 use crate::device::light_sample::light_triangle_normal;
 use crate::device::light_triangle::LightTriangle;
 use crate::device::light_view::{
-    EmissiveTriangle, LIGHT_BACK, LIGHT_FRONT, LIGHT_MIRRORED, LIGHT_NONE, LIGHT_UNIFORM,
-    LightMaterial, LightView,
+    EmissiveTriangle, LIGHT_BACK, LIGHT_FRONT, LIGHT_GROUP_IS_TREE, LIGHT_MIRRORED, LIGHT_NONE,
+    LIGHT_UNIFORM, LightMaterial, LightView,
 };
 use crate::scene::{Instance, Mesh, Scene};
 use bytemuck::Zeroable;
 use glam::{Affine3A, Vec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Which sides of a surface shine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -158,6 +161,19 @@ impl Triangles {
         }
     }
 
+    /// Emitters of each instance that has some.
+    pub fn by_instance(&self) -> Vec<Range<u32>> {
+        let mut end = 0;
+        self.list
+            .chunk_by(|a, b| a.instance == b.instance)
+            .map(|list| {
+                let start = end;
+                end += list.len() as u32;
+                start..end
+            })
+            .collect()
+    }
+
     /// Bytes in memory.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.list[..])
@@ -186,6 +202,18 @@ pub fn bounds(triangle: &EmissiveTriangle, emission: &MaterialEmission) -> Light
         power: radiance * area,
         two_sided: emission.sides == Sides::Both,
     }
+}
+
+/// The group of triangles with the given bounds; its link is still to be completed.
+pub fn group(bounds: &[LightBounds]) -> Group {
+    let both = bounds.iter().any(|b| b.two_sided);
+    let unite = |a: LightBounds, b: &LightBounds| tree_build::unite(&a, b);
+    let mut all = bounds[1..].iter().fold(bounds[0], unite);
+    if both {
+        // Some normal or its opposite is near every direction.
+        (all.cos_normals, all.two_sided) = (-1.0, false);
+    }
+    Group::boxed(all, LIGHT_GROUP_IS_TREE)
 }
 
 fn sampled(scene: &Scene, emission: &[Option<MaterialEmission>], material: Option<u32>) -> bool {
