@@ -26,8 +26,8 @@ struct Shared {
     report: AdapterReport,
     key: Option<String>,
     trouble: Arc<Mutex<Option<GpuError>>>,
-    /// Held while commands are handed over: a thread must not wait for a number that wgpu has
-    /// given away, but not yet noted, in another thread.
+    /// Held while commands are handed over or waited for: a thread must not wait for a number
+    /// that wgpu has given away, but not yet noted, in another thread.
     submitting: Mutex<()>,
     patience: Duration,
     arguments_layout: wgpu::BindGroupLayout,
@@ -177,7 +177,13 @@ impl Device {
                 submission_index: Some(submission.clone()),
                 timeout: Some(LOOK_EVERY),
             };
-            let polled = self.raw().poll(poll);
+            let polled = {
+                // wgpu 30 compares its numbers of submissions wrongly while another thread
+                // hands work over.
+                let submitting = self.shared.submitting.lock();
+                let _held = submitting.unwrap_or_else(PoisonError::into_inner);
+                self.raw().poll(poll)
+            };
             self.trouble()?;
             match polled {
                 Ok(_) => return Ok(()),

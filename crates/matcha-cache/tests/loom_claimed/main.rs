@@ -196,12 +196,6 @@ fn publishing_before_claiming_is_noticed() {
 
 #[test]
 #[should_panic]
-fn a_claim_taken_for_a_value_is_noticed() {
-    must_fail(Mistake::ClaimIsEnough, TWO_KEYS);
-}
-
-#[test]
-#[should_panic]
 fn claiming_without_an_exchange_is_noticed() {
     must_fail(Mistake::NoExchange, SAME_KEY);
 }

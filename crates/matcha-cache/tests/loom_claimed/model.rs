@@ -23,8 +23,6 @@ pub struct Cell {
 pub enum Mistake {
     /// The value is published before the entry is claimed.
     PublishedEarly,
-    /// A claimed entry is taken for a whole one.
-    ClaimIsEnough,
     /// Whoever saw an empty entry takes it.
     NoExchange,
 }
@@ -47,8 +45,7 @@ impl Cell {
             let fingerprint = entry.fingerprint.load(Relaxed);
             if fingerprint == key {
                 let value = entry.value.load(Relaxed);
-                let whole = value != 0 || self.makes(Mistake::ClaimIsEnough);
-                return whole.then_some(!value);
+                return (value != 0).then_some(!value);
             }
             if fingerprint == 0 {
                 break;
