@@ -145,8 +145,16 @@ impl Kernels {
             measure: plain("wave_measure")?,
             regenerate: plain("wave_regenerate")?,
             traverse: plain("wave_traverse")?,
-            meet: plain("wave_meet")?,
-            escape: plain("wave_escape")?,
+            meet: plain(if form.light_programs {
+                "wave_meet_trees"
+            } else {
+                "wave_meet"
+            })?,
+            escape: plain(if form.light_programs {
+                "wave_escape_trees"
+            } else {
+                "wave_escape"
+            })?,
             evaluate: plain("wave_evaluate")?,
             look_up: cached("wave_look_up", !form.inline)?,
             misses: cached("wave_misses", !form.inline)?,

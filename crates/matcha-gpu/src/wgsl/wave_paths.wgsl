@@ -76,6 +76,71 @@ fn wave_meet(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
     store_paths_radiance(slot, path.radiance);
 }
 
+// What the node tree of a light emits in a direction; white where it has none. Uses the slot's
+// outputs.
+fn light_tree_radiance(light: u32, direction: vec3f, distance: f32, slot: u32) -> vec3f {
+    let program = word_light_programs(light_scene_light(light));
+    if program == SCENE_NOTHING {
+        return vec3f(1.0);
+    }
+    machine_load_background(program, path_shadow_info(direction, distance));
+    finish_program(program_head(program), slot);
+    return program_radiance(program, slot);
+}
+
+// The same as wave_meet, where lights have node trees.
+@compute @workgroup_size(64)
+fn wave_meet_trees(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
+    let k = invocation_number(group, local);
+    if k >= queue_count(QUEUE_ACTIVE) {
+        return;
+    }
+    let slot = queue_slot(QUEUE_ACTIVE, k);
+    let settings = load_wave_settings(0u);
+    var path = load_paths(slot);
+    var start = path.t_min;
+    loop {
+        let met = path_meet_lights(&path, start, load_hits(slot).t, settings);
+        if met.light == SCENE_NOTHING {
+            break;
+        }
+        let emission = light_tree_radiance(met.light, path.direction, met.distance_, slot);
+        path_add_met(&path, met.factor * emission, met.pdf, settings);
+        start = met.next;
+    }
+    store_paths_radiance(slot, path.radiance);
+}
+
+// The same as wave_escape, where lights have node trees.
+@compute @workgroup_size(64)
+fn wave_escape_trees(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
+    let k = invocation_number(group, local);
+    if k >= queue_count(QUEUE_ESCAPED) {
+        return;
+    }
+    let slot = queue_slot(QUEUE_ESCAPED, k);
+    let settings = load_wave_settings(0u);
+    var path = load_paths(slot);
+    if !path_leaves_film(&path, settings) {
+        // Before suns take the slot's outputs.
+        let world = world_radiance(slot);
+        var sun = 0u;
+        loop {
+            let met = path_meet_suns(&path, sun, settings);
+            if met.light == SCENE_NOTHING {
+                break;
+            }
+            let emission = light_tree_radiance(met.light, path.direction, met.distance_, slot);
+            path_add_met(&path, met.factor * emission, met.pdf, settings);
+            sun = u32(met.next);
+        }
+        path_meet_world(&path, world, word_wave_scene(SCENE_WORLD_VISIBILITY), settings);
+    }
+    store_paths_radiance(slot, path.radiance);
+    store_paths_alpha(slot, path.alpha);
+    put_slot_state(slot, STATE_FINISHED);
+}
+
 // Adds the world and the suns to paths that left the scene.
 @compute @workgroup_size(64)
 fn wave_escape(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
