@@ -61,8 +61,17 @@ pub enum ImportError {
         source: std::io::Error,
     },
     /// `strict` was asked for, and something was substituted.
-    #[error("not everything is supported, and strict was asked for: {0}")]
-    Strict(Report),
+    #[error(
+        "{}: not everything is supported, and strict was asked for: {}",
+        file.display(),
+        lost.in_a_sentence()
+    )]
+    Strict {
+        /// The file.
+        file: PathBuf,
+        /// What was substituted.
+        lost: Report,
+    },
 }
 
 /// An error inside a file, before the file's name is known.

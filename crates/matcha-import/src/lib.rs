@@ -106,7 +106,7 @@ pub fn load(
         let what = ReportKind::Feature(format!("the exporter says: {warning}"));
         imported.report.add(what, "", "exported without it");
     }
-    imported.report.check(options.strict)?;
+    imported.report.check(options.strict, path)?;
     Ok(imported)
 }
 
@@ -153,7 +153,7 @@ pub fn load_bytes(
     let mut imported = load_from(bytes, Folder(None), options, progress)
         .map_err(|fault| fault.in_file(Path::new(name)))?;
     imported.scene.name = name.to_owned();
-    imported.report.check(options.strict)?;
+    imported.report.check(options.strict, Path::new(name))?;
     Ok(imported)
 }
 

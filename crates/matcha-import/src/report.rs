@@ -3,6 +3,7 @@
 use crate::error::ImportError;
 use std::collections::HashMap;
 use std::fmt;
+use std::path::Path;
 
 /// What kind of thing was not taken as the file has it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -112,8 +113,8 @@ impl Report {
         }
     }
 
-    /// In strict mode, an error if anything that the author asked for was substituted.
-    pub fn check(&self, strict: bool) -> Result<(), ImportError> {
+    /// In strict mode, an error if anything that the author of `file` asked for was substituted.
+    pub(crate) fn check(&self, strict: bool, file: &Path) -> Result<(), ImportError> {
         let mut lost = Report::default();
         for item in self.items.iter().filter(|item| !item.kind.is_note()) {
             lost.add_many(
@@ -124,10 +125,16 @@ impl Report {
             );
         }
         if strict && !lost.items.is_empty() {
-            Err(ImportError::Strict(lost))
-        } else {
-            Ok(())
+            let file = file.to_owned();
+            return Err(ImportError::Strict { file, lost });
         }
+        Ok(())
+    }
+
+    /// All items in one line.
+    pub(crate) fn in_a_sentence(&self) -> String {
+        let items: Vec<String> = self.items.iter().map(ToString::to_string).collect();
+        items.join("; ")
     }
 }
 
@@ -162,17 +169,17 @@ mod tests {
             "node type ShaderNodeBsdfHair is not supported (first: material \"Fur\", node \"Hair\"; 2 times): \
              rendered as diffuse"
         );
-        assert!(report.check(false).is_ok());
-        assert!(report.check(true).is_err());
+        assert!(report.check(false, Path::new("a")).is_ok());
+        assert!(report.check(true, Path::new("a")).is_err());
     }
 
     #[test]
     fn notes_pass_in_strict_mode() {
         let mut report = Report::default();
         report.add(ReportKind::Note("no camera".into()), "", "one was made");
-        assert!(report.check(true).is_ok());
+        assert!(report.check(true, Path::new("a")).is_ok());
         report.add(ReportKind::Image("a".into()), "", "pink");
-        let Err(ImportError::Strict(lost)) = report.check(true) else {
+        let Err(ImportError::Strict { lost, .. }) = report.check(true, Path::new("a")) else {
             panic!("must be refused")
         };
         assert_eq!(lost.items().len(), 1);

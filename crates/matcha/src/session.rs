@@ -28,6 +28,23 @@ pub(crate) fn note_start() {
     START.get_or_init(Instant::now);
 }
 
+/// In strict mode, an error if anything was replaced by something else.
+fn refuse_in_strict_mode(scene: &SceneArguments, substitutes: &[String]) -> Result<()> {
+    match substitutes {
+        [first, rest @ ..] if scene.strict => {
+            let more = match rest.len() {
+                0 => String::new(),
+                n => format!("; {n} more like it"),
+            };
+            bail!(
+                "{}: not everything is supported, and strict was asked for: {first}{more}",
+                scene.scene.display()
+            )
+        }
+        _ => Ok(()),
+    }
+}
+
 /// A scene that is ready, and how it will be shown.
 pub(crate) struct Loaded {
     prepared: Arc<Prepared>,
@@ -50,25 +67,19 @@ impl Loaded {
         }
         loaded.settings.samples = samples;
         let (view, lacks) = View::new(&loaded.settings.view);
-        if let Some(lacks) = lacks {
-            tracing::warn!("{lacks}");
-        }
         let prepared = Prepared::new(loaded, options.resolution)?;
+        let mut substitutes: Vec<String> = lacks.into_iter().collect();
         for (material, report) in prepared.reports() {
-            for item in &report.items {
-                tracing::warn!(
+            substitutes.extend(report.items.iter().map(|item| {
+                format!(
                     "{} (material \"{material}\", node \"{}\"): {}",
-                    item.kind,
-                    item.node,
-                    item.substitute
-                );
-            }
+                    item.kind, item.node, item.substitute
+                )
+            }));
         }
-        if scene.strict && !prepared.reports().is_empty() {
-            bail!(
-                "{}: not everything is supported, and strict was asked for",
-                scene.scene.display()
-            );
+        refuse_in_strict_mode(scene, &substitutes)?;
+        for substitute in &substitutes {
+            tracing::warn!("{substitute}");
         }
         Ok(Self {
             prepared: Arc::new(prepared),

@@ -99,6 +99,61 @@ fn scenes_that_are_none_are_refused_in_a_sentence() {
     assert!(!output.exists());
 }
 
+/// The scene with a Cycles material of one unknown node, and a view of its own.
+fn scene_with_substitutes(folder: &Path, node: &str, view: &str) -> std::path::PathBuf {
+    let path = scene::write(folder);
+    let mut json: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
+    let socket = |name: &str| serde_json::json!([{"identifier": name, "name": name, "type": "SHADER", "value": []}]);
+    json["extensionsUsed"] = serde_json::json!(["MATCHA_cycles"]);
+    json["extensions"] = serde_json::json!({"MATCHA_cycles": {"version": 1, "images": [],
+        "trees": [{"name": "Floor", "nodes": [
+            {"name": "Odd", "type": node, "outputs": socket("BSDF"),
+                "inputs": [{"identifier": "Color", "name": "Color", "type": "RGBA", "value": [1, 1, 1, 1]}]},
+            {"name": "Out", "type": "ShaderNodeOutputMaterial", "inputs": socket("Surface"), "outputs": []}],
+            "links": [{"from": [0, 0], "to": [1, 0]}]}],
+        "settings": {"resolution": [8, 8], "pixel_aspect": 1.0, "samples": 1, "max_bounces": 2, "diffuse_bounces": 1,
+            "glossy_bounces": 1, "transmission_bounces": 1, "transparent_bounces": 1, "clamp_direct": 0.0,
+            "clamp_indirect": 0.0, "blur_glossy": 0.0, "reflective_caustics": true, "refractive_caustics": true,
+            "light_threshold": 0.0, "filter": {"type": "BOX", "width": 1.0}, "exposure": 1.0, "transparent_film": false,
+            "view": {"transform": view, "look": "None", "exposure": 0.0, "gamma": 1.0}, "seed": 0}}});
+    json["materials"][0]["extensions"] = serde_json::json!({"MATCHA_cycles": {"tree": 0}});
+    std::fs::write(&path, json.to_string()).unwrap();
+    path
+}
+
+#[test]
+fn substitutes_are_said_and_refused_in_strict_mode() {
+    let cases = [
+        (
+            "ShaderNodeNotThereYet",
+            "Standard",
+            "ShaderNodeNotThereYet (material \"Floor\", node \"Odd\"): a grey diffuse closure",
+        ),
+        (
+            "ShaderNodeBsdfTransparent",
+            "Posters",
+            "view transform \"Posters\" is not supported: Standard is used",
+        ),
+    ];
+    for (node, view, sentence) in cases {
+        let folder = tempfile::tempdir().unwrap();
+        let path = scene_with_substitutes(folder.path(), node, view);
+        let output = folder.path().join("a.png");
+        let render = ["render", text(&path), "-o", text(&output), "--cells", "100"];
+        let lenient = matcha(&render);
+        let said = String::from_utf8_lossy(&lenient.stderr).into_owned();
+        assert!(
+            lenient.status.success() && said.contains(sentence),
+            "{said}"
+        );
+        std::fs::remove_file(&output).unwrap();
+        let strict: Vec<&str> = render.iter().copied().chain(["--strict"]).collect();
+        assert_refused(&strict, sentence);
+        assert!(!output.exists());
+    }
+}
+
 #[test]
 fn outputs_are_checked_before_anything_else() {
     let folder = tempfile::tempdir().unwrap();

@@ -291,6 +291,62 @@ fn unknown_nodes_are_reported_once_and_replaced() {
     assert_eq!(weight(&[tree]), [0.25; 3]);
 }
 
+/// What is not honoured of nodes that are known: with what is reported.
+#[rustfmt::skip]
+fn not_honoured() -> Vec<(SourceNode, &'static str)> {
+    let make = |kind: &str, output: (&str, &str), inputs: &[(&str, &str, f32)], props: &[(&str, &str)]| {
+        let inputs = inputs.iter().map(|(name, ty, value)| {
+            let width = match *ty { "VALUE" => 1, "RGBA" => 4, _ => 3 };
+            socket(name, ty, &vec![*value; width])
+        });
+        let mut made = node(kind, inputs.collect(), vec![socket(output.0, output.1, &[])]);
+        for (key, value) in props {
+            made.props.insert((*key).into(), Property::Text((*value).into()));
+        }
+        made
+    };
+    let shader = ("BSDF", "SHADER");
+    let color = ("Color", "RGBA");
+    let vector = ("Vector", "VECTOR");
+    let film = [("Color", "RGBA", 1.0), ("Roughness", "VALUE", 0.1), ("IOR", "VALUE", 1.5), ("Thin Film Thickness", "VALUE", 300.0)];
+    let displaced = [("Vector", "VECTOR", 0.1), ("Midlevel", "VALUE", 0.0), ("Scale", "VALUE", 1.0)];
+    let bump = [("Strength", "VALUE", 1.0), ("Distance", "VALUE", 1.0), ("Height", "VALUE", 0.0)];
+    vec![
+        (make("ShaderNodeBsdfMetallic", shader, &[("Base Color", "RGBA", 0.5), ("Roughness", "VALUE", 0.2)], &[("distribution", "GGX")]), "ShaderNodeBsdfMetallic"),
+        (make("ShaderNodeBsdfToon", shader, &[("Color", "RGBA", 0.5)], &[]), "ShaderNodeBsdfToon"),
+        (make("ShaderNodeBsdfGlass", shader, &film, &[("distribution", "GGX")]), "a thin film on glass"),
+        (make("ShaderNodeSubsurfaceScattering", ("BSSRDF", "SHADER"), &[("Color", "RGBA", 0.5), ("Scale", "VALUE", 1.0), ("Radius", "VECTOR", 1.0)], &[]), "ShaderNodeSubsurfaceScattering"),
+        (make("ShaderNodeVolumeScatter", ("Volume", "SHADER"), &[], &[]), "ShaderNodeVolumeScatter"),
+        (make("ShaderNodeTexImage", color, &[], &[]), "an image texture without an image"),
+        (make("ShaderNodeAttribute", color, &[], &[("attribute_type", "OBJECT")]), "an attribute of type OBJECT"),
+        (make("ShaderNodeAttribute", color, &[], &[("attribute_type", "GEOMETRY"), ("attribute_name", "dirt")]), "the missing attribute \"dirt\""),
+        (make("ShaderNodeUVMap", ("UV", "VECTOR"), &[], &[("uv_map", "Second")]), "the missing UV map \"Second\""),
+        (make("ShaderNodeTexCoord", ("Normal", "VECTOR"), &[], &[]), "the output Normal of ShaderNodeTexCoord"),
+        (make("ShaderNodeLightPath", ("Is Volume Scatter Ray", "VALUE"), &[], &[]), "the output Is Volume Scatter Ray of ShaderNodeLightPath"),
+        (make("ShaderNodeVectorTransform", vector, &[("Vector", "VECTOR", 1.0)], &[("convert_from", "WORLD"), ("convert_to", "CAMERA")]), "ShaderNodeVectorTransform"),
+        (make("ShaderNodeNormalMap", ("Normal", "VECTOR"), &[("Strength", "VALUE", 1.0), ("Color", "RGBA", 0.5)], &[("space", "OBJECT")]), "the object space of ShaderNodeNormalMap"),
+        (make("ShaderNodeVectorDisplacement", ("Displacement", "VECTOR"), &displaced, &[("space", "OBJECT")]), "ShaderNodeVectorDisplacement"),
+        (make("ShaderNodeBump", ("Normal", "VECTOR"), &bump, &[]), ""),
+    ]
+}
+
+#[test]
+fn what_is_not_honoured_of_known_nodes_is_reported() {
+    for (source, kind) in not_honoured() {
+        let shader = source.outputs[0].kind == "SHADER";
+        let mut tree = emitting(vec![source], vec![]);
+        if shader {
+            tree.links = vec![link([0, 0], [2, 0])];
+        } else {
+            tree.links.push(link([0, 0], [1, 0]));
+        }
+        let (_, report) = lowered(&[tree]).unwrap_or_else(|error| panic!("{kind}: {error}"));
+        let kinds: Vec<&str> = report.items.iter().map(|item| item.kind.as_str()).collect();
+        let expected: &[&str] = if kind.is_empty() { &[] } else { &[kind] };
+        assert_eq!(kinds, expected);
+    }
+}
+
 fn glossy_with_displacement(space: &str) -> MaterialGraph {
     let uv = node("ShaderNodeUVMap", vec![], vec![socket("UV", "VECTOR", &[])]);
     let inputs = vec![
