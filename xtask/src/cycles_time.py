@@ -1,11 +1,10 @@
-"""Arguments: scene samples WxH. Prints "CYCLES seconds": the time of the samples alone."""
+"""Arguments: scene samples WxH picture. Prints "CYCLES seconds": the time of the samples alone."""
 import sys
-import tempfile
 import time
 
 import bpy
 
-scene_path, samples, size = sys.argv[1:4]
+scene_path, samples, size, picture = sys.argv[1:5]
 bpy.ops.wm.open_mainfile(filepath=scene_path)
 scene = bpy.context.scene
 width, height = (int(side) for side in size.lower().split("x"))
@@ -18,14 +17,14 @@ scene.render.resolution_percentage = 100
 scene.render.use_persistent_data = True
 scene.render.use_compositing = False
 scene.render.use_sequencer = False
+scene.render.filepath = picture
+scene.render.image_settings.file_format = "OPEN_EXR"
 
 
 def seconds(count):
     scene.cycles.samples = count
-    scene.render.filepath = tempfile.mktemp(suffix=".exr")
-    scene.render.image_settings.file_format = "OPEN_EXR"
     start = time.perf_counter()
-    bpy.ops.render.render(write_still=False)
+    bpy.ops.render.render(write_still=True)
     return time.perf_counter() - start
 
 
