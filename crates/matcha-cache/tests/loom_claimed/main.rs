@@ -1,14 +1,15 @@
-//! The GPU's protocol for devices without 64-bit atomic operations, in every interleaving that
-//! loom's memory model allows: it can do exactly what the 64-bit table can. Run with
+//! The GPU's protocol for devices without 64-bit atomic operations, in interleavings that loom's
+//! memory model allows: it can do exactly what the 64-bit table can. Run with
 //! `RUSTFLAGS="--cfg loom" cargo test -p matcha-cache --release --test loom_claimed`.
 #![cfg(loom)]
 
 mod model;
+#[path = "../orders/mod.rs"]
+mod orders;
 
-use loom::sync::Arc;
-use loom::thread;
 use matcha_cache::{CacheCounts, Insertion, Table, TableSize, node_seed};
 use model::{Cell, Mistake};
+use orders::{in_every_order, job};
 use std::collections::BTreeSet;
 use std::sync::Mutex;
 
@@ -63,6 +64,13 @@ struct Outcome {
     left: [Option<u32>; 2],
 }
 
+/// What a thread of a scene has seen.
+#[derive(Clone, Copy)]
+enum Seen {
+    Writer(Insertion),
+    Reader([Option<u32>; 2]),
+}
+
 /// Everything that can come out. The loser of one key, whose value is its own affair, is the same
 /// as one that came too late.
 fn outcomes<C: OneCell>(
@@ -71,19 +79,25 @@ fn outcomes<C: OneCell>(
 ) -> BTreeSet<Outcome> {
     let all = std::sync::Arc::new(Mutex::new(BTreeSet::new()));
     let seen = all.clone();
-    loom::model(move || {
-        let cell = Arc::new(cell());
-        let writers = scene.writers.map(|(key, value)| {
-            let cell = cell.clone();
-            thread::spawn(move || cell.insert(key, value))
-        });
-        let keys = scene.writers.map(|(key, _)| key);
-        let read = if scene.reader {
-            keys.map(|key| cell.look_up(key))
-        } else {
-            [None; 2]
+    let keys = scene.writers.map(|(key, _)| key);
+    let writers = scene.writers.iter();
+    let mut jobs: Vec<_> = writers
+        .map(|&(key, value)| job(move |cell: &C| Seen::Writer(cell.insert(key, value))))
+        .collect();
+    if scene.reader {
+        jobs.push(job(move |cell: &C| {
+            Seen::Reader(keys.map(|key| cell.look_up(key)))
+        }));
+    }
+    in_every_order(cell, jobs, move |cell, threads| {
+        let [Seen::Writer(a), Seen::Writer(b), ..] = threads[..] else {
+            panic!("two writers are first")
         };
-        let insertions = writers.map(|writer| writer.join().expect("it does not panic"));
+        let insertions = [a, b];
+        let read = match threads.get(2) {
+            Some(&Seen::Reader(read)) => read,
+            _ => [None; 2],
+        };
         let left = keys.map(|key| cell.look_up(key));
         judge(scene, insertions, read, left);
         seen.lock().expect("no panic").insert(Outcome {
@@ -164,19 +178,19 @@ fn it_can_do_exactly_what_the_64_bit_table_can() {
 /// The value whose complement means "not yet" is never seen, but takes its entry.
 #[test]
 fn the_value_that_cannot_be_published_is_a_miss() {
-    loom::model(|| {
-        let cell = Arc::new(Cell::new(2, None));
-        let writer = {
-            let cell = cell.clone();
-            thread::spawn(move || cell.put(1, u32::MAX))
-        };
-        let mine = cell.put(2, 20);
-        assert_eq!(cell.find(1), None);
-        let theirs = writer.join().expect("it does not panic");
-        assert_eq!(cell.find(1), None);
-        assert_eq!(cell.find(2), (mine == Insertion::Stored).then_some(20));
-        assert!(mine == Insertion::Stored || theirs == Insertion::Stored);
-    });
+    let jobs = [(1, u32::MAX), (2, 20)]
+        .map(|(key, value)| job(move |cell: &Cell| (cell.put(key, value), cell.find(1))));
+    in_every_order(
+        || Cell::new(2, None),
+        jobs.to_vec(),
+        |cell, results| {
+            let (theirs, mine) = (results[0].0, results[1].0);
+            assert!(results.iter().all(|(_, found)| found.is_none()));
+            assert_eq!(cell.find(1), None);
+            assert_eq!(cell.find(2), (mine == Insertion::Stored).then_some(20));
+            assert!(mine == Insertion::Stored || theirs == Insertion::Stored);
+        },
+    );
 }
 
 fn must_fail(mistake: Mistake, writers: [(u32, u32); 2]) {
@@ -198,4 +212,10 @@ fn publishing_before_claiming_is_noticed() {
 #[should_panic]
 fn claiming_without_an_exchange_is_noticed() {
     must_fail(Mistake::NoExchange, SAME_KEY);
+}
+
+#[test]
+#[should_panic]
+fn reading_what_is_only_claimed_is_noticed() {
+    must_fail(Mistake::ReadEarly, TWO_KEYS);
 }
