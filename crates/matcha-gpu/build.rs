@@ -19,6 +19,8 @@ mod memory {
     pub mod placement;
     pub mod section;
 }
+#[path = "build/host_code.rs"]
+mod host_code;
 #[path = "src/shader/items.rs"]
 #[allow(dead_code)]
 mod items;
@@ -39,6 +41,9 @@ const DEVICE_MODULES: [&str; 3] = [
 const ATOMICS_64: Capabilities = Capabilities::SHADER_INT64
     .union(Capabilities::SHADER_INT64_ATOMIC_MIN_MAX)
     .union(Capabilities::SHADER_INT64_ATOMIC_ALL_OPS);
+
+/// Host layers whose constants and columns the host reads and writes, too.
+const WAVE_LAYERS: &str = "/wave_";
 
 /// How operations get at an instruction's operands (`src/wgsl/machine.wgsl`).
 const MACHINE: DispatchForm = DispatchForm {
@@ -85,7 +90,12 @@ fn build() -> Result<(), Box<dyn Error>> {
     for atomics_64 in [false, true] {
         validate(&all, &host_layers, atomics_64)?;
     }
-    embed(&code, &host_layers)
+    let waves = host_layers
+        .iter()
+        .filter(|layer| layer.path.contains(WAVE_LAYERS))
+        .cloned();
+    let host_code = host_code::host_code(&device, &waves.collect::<Vec<_>>());
+    embed(&code, &host_layers, &host_code)
 }
 
 /// Declares the fields of all views as sections.
@@ -199,8 +209,9 @@ fn validate(code: &Source, host_layers: &[Module], atomics_64: bool) -> Result<(
 }
 
 /// Writes what the crate includes.
-fn embed(code: &Source, host_layers: &[Module]) -> Result<(), Box<dyn Error>> {
+fn embed(code: &Source, host_layers: &[Module], host_code: &str) -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(std::env::var("OUT_DIR")?);
+    std::fs::write(out.join("host_code.rs"), host_code)?;
     std::fs::write(out.join("device.wgsl"), code.text())?;
     let mut rust = String::from(
         "pub const DEVICE_CODE: &str = include_str!(concat!(env!(\"OUT_DIR\"), \"/device.wgsl\"));\n\

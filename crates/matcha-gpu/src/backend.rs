@@ -4,7 +4,7 @@ use crate::adapter::{self, Adapter, Wanted};
 use crate::device::Device;
 use crate::error::GpuError;
 use crate::pipeline::Pipelines;
-use crate::wavefront::Wavefront;
+use crate::wavefront::{GpuFrom, Wavefront};
 use matcha_cache::TableSize;
 use matcha_render::backend::{
     Backend, CacheMode, Control, KernelTimes, RenderError, RenderOptions, Statistics,
@@ -37,6 +37,9 @@ pub struct GpuOptions {
     /// pays: on GPUs, whose neighbouring invocations run the same instruction, but not on drivers
     /// on the processor.
     pub sort_queues: Option<bool>,
+    /// Which stages are left to the processor, to find out where devices differ; without it the
+    /// device takes all of them, several bounces at once.
+    pub gpu_from: Option<GpuFrom>,
     /// Where compiled kernels are kept.
     pub cache_folder: Option<PathBuf>,
 }
@@ -47,6 +50,7 @@ impl Default for GpuOptions {
             wanted: Wanted::Best,
             material_stage: MaterialStage::default(),
             sort_queues: None,
+            gpu_from: None,
             cache_folder: None,
         }
     }

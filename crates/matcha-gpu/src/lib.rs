@@ -9,7 +9,8 @@
 //! * [`sort`]: a counting sort of queues.
 //! * [`table`]: the material cache's table.
 //! * [`trace`]: the hierarchy in compressed nodes, and the walk of rays through it.
-//! * [`wavefront`]: a scene's paths on a device; [`backend`]: that as what renders.
+//! * [`wavefront`]: a scene's paths on a device, and on the processor stage by stage (`twin`), to
+//!   compare; [`backend`]: that as what renders.
 //!
 //! A host layer declares the sections that it reaches into (`//@ read4 bvh_nodes`, see
 //! [`memory::section`]) and calls their accessors ([`memory::accessors`]). A kernel is an
@@ -30,6 +31,7 @@ pub mod table;
 #[doc(hidden)]
 pub mod testing;
 pub mod trace;
+mod twin;
 pub mod wavefront;
 
 pub use error::GpuError;

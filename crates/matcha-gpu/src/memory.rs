@@ -166,6 +166,13 @@ impl Memory {
         Ok(self.placed(name)?.length)
     }
 
+    /// Names of the sections that kernels write.
+    pub fn written(&self) -> impl Iterator<Item = &str> {
+        let sections = self.placement.sections.iter().map(|s| &s.declaration);
+        let written = sections.filter(|declaration| !declaration.class.read_only());
+        written.map(|declaration| declaration.name.as_str())
+    }
+
     /// True if the section is here.
     pub fn holds(&self, name: &str) -> bool {
         self.sections.contains_key(name)

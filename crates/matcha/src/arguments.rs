@@ -119,6 +119,9 @@ pub(crate) struct Options {
     /// How networks are evaluated on a GPU when results are kept
     #[arg(long, value_enum, default_value_t = MaterialStage::Split)]
     pub material_stage: MaterialStage,
+    /// Leave the stages before this one to the processor, to find out which one differs on a GPU
+    #[arg(long, value_enum, value_name = "STAGE", hide = true)]
+    pub gpu_from: Option<GpuFrom>,
     /// Write full statistics
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
@@ -153,6 +156,27 @@ pub(crate) enum MaterialStage {
     Inline,
     /// All hits look up first; what is missing is evaluated side by side
     Split,
+}
+
+/// The first stage of a bounce that a GPU takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum GpuFrom {
+    /// Finished paths go onto the film and are replaced
+    Regenerate,
+    /// Paths find what they meet
+    Traverse,
+    /// Lights on the way of paths, the suns and the world
+    Lights,
+    /// Node networks
+    Evaluate,
+    /// Closures, and all that is sampled or taken from them
+    Shade,
+    /// Shadow rays
+    Shadow,
+    /// What shadow rays bring
+    Accumulate,
+    /// None at all
+    Nothing,
 }
 
 impl Options {

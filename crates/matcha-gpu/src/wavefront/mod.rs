@@ -5,12 +5,25 @@
 //! works on slots. Stages append slots to queues; the next stage is dispatched over what is in its
 //! queue, without the host knowing how much that is.
 
+mod bisect;
+mod kernels;
+#[doc(hidden)]
+pub mod layout;
 mod scene;
-mod stages;
-mod state;
+#[doc(hidden)]
+pub mod slot_copy;
+pub(crate) mod stages;
+pub(crate) mod state;
 mod table;
 mod totals;
+mod wave;
 
+pub use bisect::GpuFrom;
+#[doc(hidden)]
+pub use bisect::StepRecord;
+pub use stages::Stage;
+#[doc(hidden)]
+pub use stages::{Place, Step};
 pub use totals::WavefrontStatistics;
 
 use crate::adapter::Kind;
@@ -21,17 +34,21 @@ use crate::error::GpuError;
 use crate::machine::switch;
 use crate::memory::Memory;
 use crate::pipeline::Pipelines;
-use crate::shader::Library;
+use crate::shader::{Library, LinkError};
+use crate::twin::Twin;
+use bisect::Bisection;
+use kernels::Kernels;
 use matcha_render::backend::{CacheMode, Control, RenderOptions};
 use matcha_render::film::Film;
 use matcha_render::flat::FlatScene;
 use matcha_render::prepare::Prepared;
-use stages::{Form, Kernels, Wave};
+use stages::Form;
 use state::{Part, SlotMemory};
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use totals::Totals;
+use wave::Wave;
 
 /// A dispatch should not be longer, so that a desktop stays usable and no watchdog fires.
 const LONGEST_DISPATCH: Duration = Duration::from_millis(100);
@@ -44,6 +61,8 @@ pub struct Wavefront {
     slots: SlotMemory,
     kernels: Kernels,
     form: Form,
+    /// Which stages are left to the processor, if anybody asks for it.
+    bisection: Option<Bisection>,
     /// Slots that are in use: fewer than there are where dispatches would take too long.
     in_use: u32,
     width: u32,
@@ -63,6 +82,22 @@ impl Wavefront {
         options: &RenderOptions,
         gpu: &GpuOptions,
     ) -> Result<Wavefront, GpuError> {
+        Self::with_library(device, pipelines, prepared, options, gpu, |_| Ok(()))
+    }
+
+    /// The same with a change to the kernels' text: for tests that must fail.
+    ///
+    /// # Errors
+    /// Likewise, and if the change cannot be made.
+    #[doc(hidden)]
+    pub fn with_library(
+        device: &Device,
+        pipelines: &Pipelines,
+        prepared: &Arc<Prepared>,
+        options: &RenderOptions,
+        gpu: &GpuOptions,
+        change: impl FnOnce(&mut Library) -> Result<(), LinkError>,
+    ) -> Result<Wavefront, GpuError> {
         let cached = options.cache != CacheMode::Off;
         let invalid = |message: String| GpuError::Invalid {
             what: "the scene".to_owned(),
@@ -73,6 +108,7 @@ impl Wavefront {
             .map_err(|error| invalid(error.to_string()))?;
         let flat = FlatScene::new(prepared, &programs);
         let mut library = Library::embedded(device.has_atomics_64())?;
+        change(&mut library)?;
         library.add(
             "the scene's operations",
             &switch(flat.programs().operations()),
@@ -113,7 +149,12 @@ impl Wavefront {
             table.as_ref(),
             &form,
         )?;
+        let bisection = gpu.gpu_from.map(|from| {
+            let twin = Twin::new(flat, form.clone(), seed, offset);
+            Bisection { from, twin }
+        });
         let mut wavefront = Wavefront {
+            bisection,
             runner: Runner::new(device)?,
             in_use: slots.capacity(),
             scene,
@@ -194,7 +235,7 @@ impl Wavefront {
                 // What is in flight is left; samples that are done count.
                 part.end = part.first_sample;
             }
-            let longest = self.wave().run(&part)?;
+            let longest = self.run_wave(&part)?;
             let counts = self.slots.take_counts()?;
             self.totals.add(&counts);
             self.adapt(longest);
@@ -202,6 +243,16 @@ impl Wavefront {
                 return Ok(());
             }
         }
+    }
+
+    /// Some bounces. Returns the time of the longest dispatch, if that is known and matters.
+    fn run_wave(&mut self, part: &Part) -> Result<Duration, GpuError> {
+        let Some(mut bisection) = self.bisection.take() else {
+            return self.wave().run(part);
+        };
+        let done = self.run_bisected(&mut bisection, part);
+        self.bisection = Some(bisection);
+        done.map(|()| LONGEST_DISPATCH)
     }
 
     /// Takes fewer slots for the next part if dispatches took too long.

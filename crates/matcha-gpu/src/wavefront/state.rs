@@ -1,6 +1,8 @@
 //! Paths in flight in the device's memory: group 2.
 
-use crate::batch::Runner;
+use super::layout;
+use super::slot_copy::SlotCopy;
+use crate::batch::{Batch, Runner};
 use crate::device::Device;
 use crate::error::GpuError;
 use crate::memory::{Memory, Sections, buffer};
@@ -13,15 +15,14 @@ use std::ops::Range;
 
 /// Number of the bind group.
 const GROUP: u32 = 2;
-/// Queues, and counters of the section `wave_totals`: see `wave_state.wgsl`.
-pub(super) const QUEUES: u64 = 12;
+const QUEUES: u64 = layout::QUEUES as u64;
+/// Counters of the section `wave_totals`: see `wave_state.wgsl`.
 const TOTALS: u64 = 16;
-/// Words of a miss: see `wave_networks.wgsl`.
-const MISS_ROWS: u64 = 6;
+const MISS_ROWS: u64 = layout::MISS_ROWS as u64;
 
 /// A part of the picture whose pixels are rendered together.
 #[derive(Clone, Debug)]
-pub(super) struct Part {
+pub(crate) struct Part {
     /// Its first pixel, counted in rows from the top.
     pub first: u32,
     /// Pixels.
@@ -52,7 +53,7 @@ impl Part {
     }
 
     /// Slots in use.
-    pub(super) fn slots(&self) -> u32 {
+    pub(crate) fn slots(&self) -> u32 {
         self.pixels * self.streams
     }
 
@@ -190,9 +191,29 @@ impl SlotMemory {
         self.capacity
     }
 
-    /// Where sizes of indirect dispatches are.
+    /// Numbers of workgroups for indirect dispatches, three words a queue.
     pub(super) fn sizes(&self) -> &wgpu::Buffer {
         &self.sizes
+    }
+
+    /// Takes over what kernels made of the numbers of workgroups, in the order of a batch.
+    pub(super) fn copy_sizes(&self, batch: &mut Batch) -> Result<(), GpuError> {
+        let commands = batch.commands();
+        self.memory
+            .copy(commands, "wave_sizes", 0, 3 * QUEUES, &self.sizes)
+    }
+
+    /// Everything that stages write, as it is now.
+    pub(super) fn copy(&self) -> Result<SlotCopy, GpuError> {
+        SlotCopy::read(&self.memory, self.capacity)
+    }
+
+    /// Puts everything back that stages write.
+    pub(super) fn restore(&mut self, runner: &mut Runner, copy: &SlotCopy) -> Result<(), GpuError> {
+        copy.write_to(&mut self.memory)?;
+        let mut batch = runner.batch();
+        self.copy_sizes(&mut batch)?;
+        batch.run().map(|_| ())
     }
 
     /// Empties all slots for a part.
@@ -217,7 +238,7 @@ impl SlotMemory {
 
     /// What stages counted since the last time.
     pub(super) fn take_counts(&mut self) -> Result<Counts, GpuError> {
-        let active = self.count(0)?;
+        let active = self.count(layout::QUEUE_ACTIVE)?;
         let totals = self.memory.read("wave_totals", 0, TOTALS)?;
         self.memory.write("wave_totals", 0, &[0; TOTALS as usize])?;
         let total = |k: usize| u64::from(totals[k]);

@@ -3,16 +3,21 @@
 use super::{FlatGeometry, FlatPrograms, FlatTextures, Section};
 use crate::closure::tables::closure_tables;
 use crate::device::camera::RasterCamera;
+use crate::device::geometry_view::GeometryView;
 use crate::device::light_view::LightView;
+use crate::device::path_start::FilterView;
 use crate::device::path_state::PathSettings;
 use crate::film::filter::FilterTable;
 use crate::prepare::Prepared;
+use crate::texture::TextureSet;
 use glam::Vec3;
 use matcha_shade::program::Program;
+use std::sync::Arc;
 
 /// A scene in arrays, for one set of its programs (with look-ups of the cache, or without).
-pub struct FlatScene<'p> {
-    prepared: &'p Prepared,
+pub struct FlatScene {
+    prepared: Arc<Prepared>,
+    materials: Arc<Vec<Program>>,
     filter: FilterTable,
     geometry: FlatGeometry,
     textures: FlatTextures,
@@ -24,13 +29,13 @@ pub struct FlatScene<'p> {
 /// Stands for no program.
 pub const NO_PROGRAM: u32 = u32::MAX;
 
-impl<'p> FlatScene<'p> {
+impl FlatScene {
     /// Lays a scene out; `materials` are the programs of its materials in their order. The
     /// world's program comes behind them, then those of lights.
-    pub fn new(prepared: &'p Prepared, materials: &[Program]) -> Self {
+    pub fn new(prepared: &Arc<Prepared>, materials: &Arc<Vec<Program>>) -> Self {
         let mut all: Vec<&Program> = materials.iter().collect();
-        let mut number = |program: Option<&'p Program>| {
-            program.map(|program| {
+        let mut number = |program| {
+            Option::map(program, |program| {
                 all.push(program);
                 all.len() as u32 - 1
             })
@@ -46,7 +51,8 @@ impl<'p> FlatScene<'p> {
             geometry: FlatGeometry::new(prepared, all.iter().copied()),
             textures: FlatTextures::new(prepared, looks),
             programs: FlatPrograms::new(all.iter().copied()),
-            prepared,
+            materials: materials.clone(),
+            prepared: prepared.clone(),
             world,
             lights,
         }
@@ -55,6 +61,43 @@ impl<'p> FlatScene<'p> {
     /// The programs.
     pub fn programs(&self) -> &FlatPrograms {
         &self.programs
+    }
+
+    /// The program with a number; `None` where there is none.
+    pub fn program(&self, number: u32) -> Option<&Program> {
+        if self.world == Some(number) {
+            return self.prepared.world().ok();
+        }
+        let light = self.lights.iter().position(|&program| program == number);
+        match light {
+            Some(light) if number != NO_PROGRAM => self.prepared.light_program(light as u32),
+            _ => self.materials.get(number as usize),
+        }
+    }
+
+    /// What the arrays were made of.
+    pub fn prepared(&self) -> &Prepared {
+        &self.prepared
+    }
+
+    /// Surfaces, as device code reads them.
+    pub fn geometry(&self) -> GeometryView<'_> {
+        self.geometry.view()
+    }
+
+    /// Lights, likewise.
+    pub fn lights(&self) -> LightView<'_> {
+        self.prepared.lights.view()
+    }
+
+    /// The pixel filter, likewise.
+    pub fn filter(&self) -> FilterView<'_> {
+        self.filter.view()
+    }
+
+    /// Images, for the machine that runs on the processor.
+    pub fn images(&self) -> &TextureSet {
+        &self.prepared.textures
     }
 
     /// Number of the world's program; where it has none, its radiance is

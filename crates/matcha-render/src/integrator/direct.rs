@@ -119,7 +119,8 @@ impl Worker {
     }
 }
 
-fn shadow_ray(shadow: &ShadowTask, mask: u8) -> Ray {
+/// The ray of a task, seen by what a kind of rays meets.
+pub fn shadow_ray(shadow: &ShadowTask, mask: u8) -> Ray {
     Ray {
         origin: shadow.origin,
         direction: shadow.direction,

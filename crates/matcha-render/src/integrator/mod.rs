@@ -11,7 +11,8 @@ pub mod path;
 mod shade;
 pub mod worker;
 
-pub use networks::Networks;
+pub use direct::shadow_ray;
+pub use networks::{Networks, build_lobes, radiance};
 
 use crate::accel::{Hit, Ray, visibility_mask};
 use crate::device::path_meet::path_info;
@@ -99,7 +100,7 @@ impl Frame<'_> {
 
 impl Path {
     /// The ray that the path follows.
-    pub(crate) fn ray(&self) -> Ray {
+    pub fn ray(&self) -> Ray {
         Ray {
             origin: self.origin,
             direction: self.direction,

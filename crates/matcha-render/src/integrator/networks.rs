@@ -352,7 +352,7 @@ fn closure_frame(
 }
 
 /// Makes the lobes of point `i` from its output rows.
-fn build_lobes(
+pub fn build_lobes(
     program: &Program,
     outputs: &Rows,
     i: usize,

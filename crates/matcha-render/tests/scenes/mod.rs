@@ -5,7 +5,8 @@ use matcha_render::scene::*;
 use matcha_shade::source::{Link, NodeTree, Property, Socket, SourceNode};
 use std::collections::BTreeMap;
 
-fn socket(identifier: &str, kind: &str, value: &[f32]) -> Socket {
+/// A socket with a value.
+pub fn socket(identifier: &str, kind: &str, value: &[f32]) -> Socket {
     Socket {
         identifier: identifier.into(),
         name: identifier.into(),
@@ -17,7 +18,7 @@ fn socket(identifier: &str, kind: &str, value: &[f32]) -> Socket {
 }
 
 /// A node with inputs and one output.
-fn node(kind: &str, inputs: Vec<Socket>, output: Option<Socket>) -> SourceNode {
+pub fn node(kind: &str, inputs: Vec<Socket>, output: Option<Socket>) -> SourceNode {
     SourceNode {
         name: kind.into(),
         kind: kind.into(),
@@ -36,7 +37,7 @@ fn node(kind: &str, inputs: Vec<Socket>, output: Option<Socket>) -> SourceNode {
 }
 
 /// A shader node that drives an output node.
-fn tree(shader: SourceNode, output: &str) -> NodeTree {
+pub fn tree(shader: SourceNode, output: &str) -> NodeTree {
     let surface = vec![socket("Surface", "SHADER", &[])];
     NodeTree {
         name: shader.kind.clone(),

@@ -24,6 +24,18 @@ pub struct Texels {
     j: Vec<i32>,
 }
 
+impl FromIterator<Texel> for Texels {
+    fn from_iter<I: IntoIterator<Item = Texel>>(texels: I) -> Self {
+        let mut all = Texels::default();
+        for Texel { level, i, j } in texels {
+            all.level.push(level);
+            all.i.push(i);
+            all.j.push(j);
+        }
+        all
+    }
+}
+
 impl Texels {
     /// The texels of a program's regions at `n` points, whose input rows are given: the
     /// first elements of `all`, which grows as needed and never shrinks, so that memory is

@@ -7,6 +7,7 @@ use anyhow::Result;
 use matcha_gpu::GpuError;
 use matcha_gpu::adapter::{self, AdapterReport, Wanted};
 use matcha_gpu::backend::{Gpu, GpuBackend, GpuOptions, MaterialStage};
+use matcha_gpu::wavefront::{GpuFrom, Stage};
 use matcha_import::user_cache_folder;
 use matcha_render::backend::{Backend, RenderError, RenderOptions};
 use matcha_render::prepare::Prepared;
@@ -69,6 +70,21 @@ fn gpu_options(options: &Options) -> Result<GpuOptions> {
             arguments::MaterialStage::Split => MaterialStage::Split,
         },
         sort_queues: None,
+        gpu_from: options.gpu_from.map(first_stage),
         cache_folder: user_cache_folder().map(|folder| folder.join("kernels")),
+    })
+}
+
+fn first_stage(from: arguments::GpuFrom) -> GpuFrom {
+    use arguments::GpuFrom as Asked;
+    GpuFrom::Stage(match from {
+        Asked::Regenerate => Stage::Regenerate,
+        Asked::Traverse => Stage::Traverse,
+        Asked::Lights => Stage::Lights,
+        Asked::Evaluate => Stage::Evaluate,
+        Asked::Shade => Stage::Shade,
+        Asked::Shadow => Stage::Shadow,
+        Asked::Accumulate => Stage::Accumulate,
+        Asked::Nothing => return GpuFrom::Nothing,
     })
 }
