@@ -2,11 +2,11 @@
 
 mod scenes;
 
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 use matcha_render::backend::{Backend, CacheMode, Control, RenderOptions};
 use matcha_render::cpu::CpuBackend;
 use matcha_render::prepare::Prepared;
-use matcha_render::scene::Scene;
+use matcha_render::scene::{Light, LightShape, Scene, Visibility};
 use scenes::*;
 use std::sync::Arc;
 
@@ -74,6 +74,43 @@ fn a_square_lamp_lights_the_floor_by_its_form_factor() {
         (got / expected - 1.0).abs() < 5e-3,
         "{got} instead of {expected}"
     );
+}
+
+/// A sun that is looked at adds its radiance to the world's; with a node tree that gives 1 where
+/// light is asked for, the same.
+#[test]
+fn a_suns_node_tree_is_evaluated_beside_the_world() {
+    let with_tree = |tree: bool| {
+        let mut scene = empty(2.0);
+        scene.world.color = Vec3::new(0.2, 0.3, 0.5);
+        let far = ["Is Shadow Ray", "VALUE"];
+        let (shader, output) = ("ShaderNodeEmission", "ShaderNodeOutputLight");
+        let emits = driven(shader, output, 1, "ShaderNodeLightPath", far);
+        scene.trees.push(emits);
+        let color = Vec3::new(0.9, 0.6, 0.3);
+        scene.lights.push(Light {
+            name: "sun".into(),
+            transform: Affine3A::from_rotation_x(std::f32::consts::PI),
+            shape: LightShape::Sun { angle: 1.0 },
+            power: if tree { Vec3::ONE } else { color },
+            tree: tree.then_some(0),
+            cast_shadow: true,
+            use_mis: true,
+            visibility: Visibility::default(),
+            max_bounces: 8,
+            normalize: true,
+            random: 0.0,
+        });
+        scene.settings.samples = 4;
+        render(scene, &RenderOptions::default())
+    };
+    let (plain, evaluated) = (with_tree(false), with_tree(true));
+    let brightest = plain.iter().fold(0.0f32, |most, p| most.max(p[0]));
+    assert!(brightest > 0.5, "the sun is seen: {brightest}");
+    for (a, b) in plain.iter().zip(&evaluated) {
+        let apart = (0..3).map(|c| (a[c] - b[c]).abs());
+        assert!(apart.fold(0.0f32, f32::max) < 1e-4, "{a:?} {b:?}");
+    }
 }
 
 /// The same seed gives the same bits whatever the number of threads.

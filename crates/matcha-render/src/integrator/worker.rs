@@ -174,8 +174,12 @@ impl Worker {
         let mut escaped = std::mem::take(&mut self.escaped);
         if !escaped.is_empty() {
             self.networks.world_of_paths(frame, &escaped, &self.paths);
-            for (i, &index) in escaped.iter().enumerate() {
-                let radiance = self.networks.world_radiance(i);
+            // Suns with node trees are evaluated in between.
+            let count = escaped.len();
+            let world: Vec<Vec3> = (0..count)
+                .map(|i| self.networks.world_radiance(i))
+                .collect();
+            for (&index, radiance) in escaped.iter().zip(world) {
                 let path = &mut self.paths[index as usize];
                 add_world(frame, &mut self.networks, path, radiance);
             }

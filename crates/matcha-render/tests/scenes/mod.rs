@@ -103,6 +103,34 @@ pub fn emission(radiance: f32) -> NodeTree {
     tree(shader, "ShaderNodeOutputMaterial")
 }
 
+/// A tree whose shader takes its colour (input 0) or strength (input 1) from a node's output.
+pub fn driven(
+    shader: &str,
+    output: &str,
+    input: u32,
+    from: &str,
+    socket_of: [&str; 2],
+) -> NodeTree {
+    let inputs = vec![
+        socket("Color", "RGBA", &[0.9, 0.6, 0.3, 1.0]),
+        socket("Strength", "VALUE", &[2.0]),
+    ];
+    let out = Some(socket(
+        shader.trim_start_matches("ShaderNode"),
+        "SHADER",
+        &[],
+    ));
+    let mut whole = tree(node(shader, inputs, out), output);
+    let [identifier, kind] = socket_of;
+    let value = Some(socket(identifier, kind, &[0.0; 3]));
+    whole.nodes.push(node(from, Vec::new(), value));
+    whole.links.push(Link {
+        from: [2, 0],
+        to: [0, input],
+    });
+    whole
+}
+
 /// A scene with nothing in it, seen from (0, 0, `height`) straight down.
 pub fn empty(height: f32) -> Scene {
     Scene {
