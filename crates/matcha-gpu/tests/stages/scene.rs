@@ -3,29 +3,7 @@
 use crate::scenes::*;
 use glam::{Affine3A, Quat, Vec2, Vec3, Vec4};
 use matcha_render::scene::*;
-use matcha_shade::source::{GltfAlpha, GltfMaterial, Link, NodeTree};
-
-/// A tree whose shader takes its colour (input 0) or strength (input 1) from a node's output.
-fn driven(shader: &str, output: &str, input: u32, from: &str, socket_of: [&str; 2]) -> NodeTree {
-    let inputs = vec![
-        socket("Color", "RGBA", &[0.9, 0.6, 0.3, 1.0]),
-        socket("Strength", "VALUE", &[2.0]),
-    ];
-    let out = Some(socket(
-        shader.trim_start_matches("ShaderNode"),
-        "SHADER",
-        &[],
-    ));
-    let mut whole = tree(node(shader, inputs, out), output);
-    let [identifier, kind] = socket_of;
-    let value = Some(socket(identifier, kind, &[0.0; 3]));
-    whole.nodes.push(node(from, Vec::new(), value));
-    whole.links.push(Link {
-        from: [2, 0],
-        to: [0, input],
-    });
-    whole
-}
+use matcha_shade::source::{GltfAlpha, GltfMaterial, NodeTree};
 
 fn add_tree(scene: &mut Scene, tree: NodeTree) -> Option<u32> {
     scene.trees.push(tree);
@@ -124,7 +102,7 @@ fn add_lights(scene: &mut Scene) {
     ];
 }
 
-/// A floor with a pattern below two panes and blocks of metal and glass, an emitter with a pattern,
+/// A floor and a carpet with patterns below two panes and blocks of metal and glass, an emitter with a pattern,
 /// lights and suns with and without node trees, and a world with one.
 pub fn scene() -> Scene {
     let mut scene = empty(9.0);
@@ -147,7 +125,9 @@ pub fn scene() -> Scene {
     let pane = gltf(&mut scene, Vec4::new(0.8, 0.5, 0.4, 0.4), 0.0, 0.0);
     let metal = gltf(&mut scene, Vec4::new(0.9, 0.8, 0.6, 1.0), 1.0, 0.0);
     let glass = gltf(&mut scene, Vec4::ONE, 0.0, 1.0);
+    let carpet = add_material(&mut scene, cells(5.0));
     add_square(&mut scene, Vec3::ZERO, 3.0, false, floor);
+    add_square(&mut scene, Vec3::new(1.2, 0.8, 0.1), 0.7, false, carpet);
     add_square(&mut scene, Vec3::new(1.5, 1.0, 3.0), 0.4, true, glow);
     add_square(&mut scene, Vec3::new(-0.5, 0.0, 1.4), 1.0, false, pane);
     add_square(&mut scene, Vec3::new(0.2, 0.3, 1.8), 1.0, true, pane);
