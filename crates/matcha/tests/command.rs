@@ -32,7 +32,7 @@ fn assert_refused(arguments: &[&str], part: &str) {
 
 #[test]
 fn arguments_that_make_no_sense_are_refused_in_a_sentence() {
-    let cases: [(&[&str], &str); 14] = [
+    let cases: [(&[&str], &str); 15] = [
         (&[], "no command was given"),
         (&["render", "a.glb"], "--output"),
         (&["render", "a.glb", "-o", "a.jpg"], ".exr or .png"),
@@ -71,6 +71,10 @@ fn arguments_that_make_no_sense_are_refused_in_a_sentence() {
         (
             &["render", "a.glb", "-o", "a.png", "--device", "gpu:first"],
             "auto, cpu, gpu",
+        ),
+        (
+            &["render", "a.glb", "-o", "a.png", "--gpu-from", "teapot"],
+            "teapot",
         ),
         (&["inspect", "a.glb", "--dot"], "--material"),
         (&["bake", "a.glb"], "bake"),
