@@ -172,42 +172,58 @@ fn a_table_beyond_the_device_is_refused() {
     assert!(!output.exists());
 }
 
+/// Renders a small picture on a GPU into a folder.
+fn render_on_gpu(folder: &Path, output: &Path, more: &[&str]) -> Output {
+    let scene = scene::write(folder);
+    let mut command = matcha();
+    command.env("XDG_CACHE_HOME", folder.join("cache"));
+    // Mesa's own cache stays where it is: a processor takes minutes to compile for itself.
+    if let Some(home) = std::env::var_os("HOME") {
+        command.env("MESA_SHADER_CACHE_DIR", Path::new(&home).join(".cache"));
+    }
+    let arguments = ["render", text(&scene), "-o", text(output)];
+    let small = ["--samples", "2", "--resolution", "32x24"];
+    let device = ["--device", "gpu", "--cells", "1000"];
+    run(
+        &mut command,
+        &[&arguments[..], &small, &device, more].concat(),
+    )
+}
+
+#[test]
+fn some_stages_can_be_left_to_the_processor() {
+    let Some(_) = adapters() else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let pixels = |name: &str, more: &[&str]| {
+        let output = folder.path().join(name);
+        let run = render_on_gpu(folder.path(), &output, more);
+        let said = String::from_utf8_lossy(&run.stderr);
+        assert_eq!(run.status.code(), Some(0), "{said}");
+        image::open(&output).unwrap().to_rgb8().into_raw()
+    };
+    let whole = pixels("whole.png", &[]);
+    assert!(whole.iter().any(|&value| value > 40));
+    for from in ["shade", "nothing"] {
+        let divided = pixels("divided.png", &["--gpu-from", from]);
+        let apart = whole.iter().zip(&divided).map(|(a, b)| a.abs_diff(*b));
+        let others = apart.filter(|&apart| apart > 1).count();
+        assert!(others * 50 < whole.len(), "{from}: {others}");
+    }
+}
+
 #[test]
 fn a_gpu_renders_and_its_times_are_in_the_statistics() {
     let Some(listed) = adapters() else {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    let scene = scene::write(folder.path());
     let (output, stats) = (
         folder.path().join("a.png"),
         folder.path().join("stats.json"),
     );
-    let mut command = matcha();
-    command.env("XDG_CACHE_HOME", folder.path().join("cache"));
-    // Mesa's own cache stays where it is: a processor takes minutes to compile for itself.
-    if let Some(home) = std::env::var_os("HOME") {
-        command.env("MESA_SHADER_CACHE_DIR", Path::new(&home).join(".cache"));
-    }
-    let run = run(
-        &mut command,
-        &[
-            "render",
-            text(&scene),
-            "-o",
-            text(&output),
-            "--device",
-            "gpu",
-            "--samples",
-            "2",
-            "--resolution",
-            "32x24",
-            "--cells",
-            "1000",
-            "--stats",
-            text(&stats),
-        ],
-    );
+    let run = render_on_gpu(folder.path(), &output, &["--stats", text(&stats)]);
     let said = String::from_utf8_lossy(&run.stderr);
     assert_eq!(run.status.code(), Some(0), "{said}");
     let picture = image::open(&output).unwrap().to_rgb8();

@@ -193,8 +193,8 @@ impl Twin {
         for (quantity, first) in &source.inputs {
             for k in 0..points {
                 let value = input(k, quantity.packed());
-                for c in 0..quantity.kind.width() {
-                    rows.set(first + c, k, value[c]);
+                for (row, number) in (*first..).zip(&value[..quantity.kind.width()]) {
+                    rows.set(row, k, *number);
                 }
             }
         }
@@ -306,7 +306,7 @@ impl NodeCache for Computed {
         for row in 0..region.width() {
             out.row_mut(row).fill(0.0);
         }
-        found.fill(u32::from(region.number) != self.region);
+        found.fill(region.number != self.region);
     }
 
     fn store(&mut self, _: &Region, _: &Texels, _: &[u32], values: &mut Rows) {
