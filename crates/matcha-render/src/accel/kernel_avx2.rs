@@ -53,22 +53,29 @@ unsafe fn add(a: Lanes, b: Lanes) -> Lanes {
     }
 }
 
+// Products are not fused with sums: the device functions of `ray_triangle` then give the same
+// bits, here, in the portable kernel and on a GPU. A distance that is one bit off moves a point by
+// as much, and the bump of a fine texture makes another direction of it.
+
 #[inline(always)]
 unsafe fn cross(a: Lanes, b: Lanes) -> Lanes {
-    // SAFETY: the caller has checked for FMA.
+    // SAFETY: the caller has checked for AVX.
     unsafe {
         [
-            _mm_fmsub_ps(a[1], b[2], _mm_mul_ps(a[2], b[1])),
-            _mm_fmsub_ps(a[2], b[0], _mm_mul_ps(a[0], b[2])),
-            _mm_fmsub_ps(a[0], b[1], _mm_mul_ps(a[1], b[0])),
+            _mm_sub_ps(_mm_mul_ps(a[1], b[2]), _mm_mul_ps(a[2], b[1])),
+            _mm_sub_ps(_mm_mul_ps(a[2], b[0]), _mm_mul_ps(a[0], b[2])),
+            _mm_sub_ps(_mm_mul_ps(a[0], b[1]), _mm_mul_ps(a[1], b[0])),
         ]
     }
 }
 
 #[inline(always)]
 unsafe fn dot(a: Lanes, b: Lanes) -> __m128 {
-    // SAFETY: the caller has checked for FMA.
-    unsafe { _mm_fmadd_ps(a[0], b[0], _mm_fmadd_ps(a[1], b[1], _mm_mul_ps(a[2], b[2]))) }
+    // SAFETY: the caller has checked for AVX.
+    unsafe {
+        let xy = _mm_add_ps(_mm_mul_ps(a[0], b[0]), _mm_mul_ps(a[1], b[1]));
+        _mm_add_ps(xy, _mm_mul_ps(a[2], b[2]))
+    }
 }
 
 impl Kernel for Avx2 {
@@ -137,7 +144,7 @@ impl Kernel for Avx2 {
             u: [0.0; PACK],
             v: [0.0; PACK],
         };
-        // SAFETY: AVX2 and FMA as in `new`; rows of the 16-byte aligned pack are 16 bytes.
+        // SAFETY: AVX2 as in `new`; rows of the 16-byte aligned pack are 16 bytes.
         unsafe {
             let origin = [
                 splat(self.position.x),
@@ -174,10 +181,9 @@ impl Kernel for Avx2 {
                 _mm_cmplt_ps(t, splat(t_max)),
             );
             hits.mask = _mm_movemask_ps(_mm_and_ps(inside, within)) as u32;
-            let scale = _mm_div_ps(splat(1.0), sum);
             _mm_storeu_ps(hits.t.as_mut_ptr(), t);
-            _mm_storeu_ps(hits.u.as_mut_ptr(), _mm_mul_ps(u, scale));
-            _mm_storeu_ps(hits.v.as_mut_ptr(), _mm_mul_ps(v, scale));
+            _mm_storeu_ps(hits.u.as_mut_ptr(), _mm_div_ps(u, sum));
+            _mm_storeu_ps(hits.v.as_mut_ptr(), _mm_div_ps(v, sum));
         }
         hits
     }

@@ -154,6 +154,29 @@ fn every_way_to_build_agrees_with_brute_force() {
     }
 }
 
+/// A picture is the same whatever the processor, and a GPU's walk can have the same hits.
+#[test]
+fn all_kernels_give_the_same_bits() {
+    let scene = scene(3, 12, 60, 7);
+    let accel = Accel::build(&scene).unwrap();
+    let mut portable = Accel::build(&scene).unwrap();
+    portable.use_portable_kernel();
+    let mut state = 23;
+    let mut hits = 0;
+    for _ in 0..10_000 {
+        let ray = Ray::new(random_vec(&mut state) * 6.0, random_vec(&mut state));
+        let bits = |accel: &Accel| {
+            let hit = accel.closest(&ray)?;
+            let numbers = [hit.t, hit.u, hit.v].map(f32::to_bits);
+            Some((hit.instance, hit.primitive, numbers))
+        };
+        let found = bits(&accel);
+        assert_eq!(found, bits(&portable), "{ray:?}");
+        hits += usize::from(found.is_some());
+    }
+    assert!(hits > 500, "only {hits} rays hit anything");
+}
+
 #[test]
 fn a_wrong_box_is_noticed() {
     let scene = scene(1, 1, 400, 3);
