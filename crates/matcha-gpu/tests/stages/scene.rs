@@ -3,7 +3,26 @@
 use crate::scenes::*;
 use glam::{Affine3A, Quat, Vec2, Vec3, Vec4};
 use matcha_render::scene::*;
-use matcha_shade::source::{GltfAlpha, GltfMaterial, NodeTree};
+use matcha_shade::source::{GltfAlpha, GltfMaterial, Link, NodeTree};
+
+/// A tree whose shader takes its colour from cellular noise over what a node gives.
+fn patterned(shader: &str, output: &str, from: &str, socket_of: [&str; 2]) -> NodeTree {
+    let mut whole = driven(shader, output, 0, from, socket_of);
+    let inputs = vec![
+        socket("Vector", "VECTOR", &[0.0; 3]),
+        socket("Scale", "VALUE", &[2.0]),
+    ];
+    let color = socket("Color", "RGBA", &[0.0; 4]);
+    whole
+        .nodes
+        .push(node("ShaderNodeTexVoronoi", inputs, Some(color)));
+    let link = |from, to| Link { from, to };
+    whole.links.pop();
+    whole
+        .links
+        .extend([link([2, 0], [3, 0]), link([3, 0], [0, 0])]);
+    whole
+}
 
 fn add_tree(scene: &mut Scene, tree: NodeTree) -> Option<u32> {
     scene.trees.push(tree);
@@ -74,7 +93,7 @@ fn add_lights(scene: &mut Scene) {
     let towards = ["Incoming", "VECTOR"];
     let far = ["Ray Length", "VALUE"];
     let [light_output, emission] = ["ShaderNodeOutputLight", "ShaderNodeEmission"];
-    let colored = driven(emission, light_output, 0, "ShaderNodeNewGeometry", towards);
+    let colored = patterned(emission, light_output, "ShaderNodeNewGeometry", towards);
     let fading = driven(emission, light_output, 1, "ShaderNodeLightPath", far);
     let colored = add_tree(scene, colored);
     let fading = add_tree(scene, fading);
@@ -135,10 +154,9 @@ pub fn scene() -> Scene {
     add_block(&mut scene, Vec3::new(-1.2, 0.9, 0.6), 0.8, glass);
     add_lights(&mut scene);
     let directions = ["Generated", "VECTOR"];
-    let sky = driven(
+    let sky = patterned(
         "ShaderNodeBackground",
         "ShaderNodeOutputWorld",
-        0,
         "ShaderNodeTexCoord",
         directions,
     );
