@@ -40,6 +40,8 @@ pub struct GpuOptions {
     /// Which stages are left to the processor, to find out where devices differ; without it the
     /// device takes all of them, several bounces at once.
     pub gpu_from: Option<GpuFrom>,
+    /// Trace rays by the adapter's ray queries instead of by our own walk: experimental.
+    pub ray_queries: bool,
     /// Where compiled kernels are kept.
     pub cache_folder: Option<PathBuf>,
 }
@@ -51,6 +53,7 @@ impl Default for GpuOptions {
             material_stage: MaterialStage::default(),
             sort_queues: None,
             gpu_from: None,
+            ray_queries: false,
             cache_folder: None,
         }
     }
@@ -76,9 +79,9 @@ impl Gpu {
     /// Opens an adapter, whatever the options want.
     ///
     /// # Errors
-    /// If the driver refuses.
+    /// If it has no ray queries and they are asked for, or the driver refuses.
     pub fn open_adapter(adapter: &Adapter, options: GpuOptions) -> Result<Arc<Gpu>, GpuError> {
-        let device = Device::open(adapter)?;
+        let device = Device::open_with(adapter, options.ray_queries)?;
         let pipelines = Pipelines::new(&device, options.cache_folder.as_deref());
         Ok(Arc::new(Gpu {
             device,

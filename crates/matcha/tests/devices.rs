@@ -82,6 +82,7 @@ fn adapters_are_listed_with_what_they_have_and_lack() {
         "name",
         "number",
         "pipeline_cache",
+        "ray_queries",
         "storage_buffers",
         "subgroup",
         "timestamps",
@@ -144,6 +145,31 @@ fn what_no_adapter_is_called_is_refused_by_name() {
     let stage = ["gpu", "--material-stage", "twice"];
     let sentence = refused(&run(&mut matcha(), &[&arguments[..], &stage].concat()));
     assert!(sentence.contains("twice"), "{sentence}");
+}
+
+#[test]
+fn ray_queries_are_refused_where_there_are_none() {
+    let arguments = [
+        "render",
+        "none.glb",
+        "-o",
+        "a.png",
+        "--ray-queries",
+        "--device",
+    ];
+    let refuse = |device: &str| refused(&run(&mut matcha(), &[&arguments[..], &[device]].concat()));
+    let sentence = refuse("cpu");
+    assert!(sentence.contains("--ray-queries is for GPUs"), "{sentence}");
+    for adapter in adapters().unwrap_or_default() {
+        let lacks = adapter["lacks"].as_array().unwrap();
+        if adapter["ray_queries"] == false && lacks.is_empty() {
+            let sentence = refuse(&format!("gpu:{}", adapter["number"]));
+            assert!(
+                sentence.contains("has no hardware ray queries"),
+                "{sentence}"
+            );
+        }
+    }
 }
 
 #[test]

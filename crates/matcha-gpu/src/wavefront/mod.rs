@@ -107,7 +107,7 @@ impl Wavefront {
             .programs(cached)
             .map_err(|error| invalid(error.to_string()))?;
         let flat = FlatScene::new(prepared, &programs);
-        let mut library = Library::embedded(device.has_atomics_64())?;
+        let mut library = Library::in_dialect(device.dialect())?;
         change(&mut library)?;
         library.add(
             "the scene's operations",
