@@ -7,7 +7,7 @@ use crate::pipeline::Pipelines;
 use crate::wavefront::{GpuFrom, Wavefront};
 use matcha_cache::TableSize;
 use matcha_render::backend::{
-    Backend, CacheMode, Control, KernelTimes, RenderError, RenderOptions, Statistics,
+    Backend, CacheMode, Control, KernelTimes, RenderError, RenderOptions, Statistics, TextureMemory,
 };
 use matcha_render::film::Film;
 use matcha_render::prepare::Prepared;
@@ -42,6 +42,9 @@ pub struct GpuOptions {
     pub gpu_from: Option<GpuFrom>,
     /// Trace rays by the adapter's ray queries instead of by our own walk: experimental.
     pub ray_queries: bool,
+    /// Images of bytes are packed in blocks: a quarter of the memory, at an error
+    /// ([`matcha_render::flat::BLOCK_ERROR`]).
+    pub compress_textures: bool,
     /// Where compiled kernels are kept.
     pub cache_folder: Option<PathBuf>,
 }
@@ -54,6 +57,7 @@ impl Default for GpuOptions {
             sort_queues: None,
             gpu_from: None,
             ray_queries: false,
+            compress_textures: false,
             cache_folder: None,
         }
     }
@@ -189,6 +193,10 @@ impl Backend for GpuBackend {
 
     fn bytes(&self) -> usize {
         self.film.bytes() + self.wavefront.bytes()
+    }
+
+    fn texture_memory(&self) -> Option<TextureMemory> {
+        self.wavefront.texture_memory()
     }
 
     fn kernel_times(&self) -> KernelTimes {

@@ -249,13 +249,16 @@ fn a_gpu_renders_and_its_times_are_in_the_statistics() {
         folder.path().join("a.png"),
         folder.path().join("stats.json"),
     );
-    let run = render_on_gpu(folder.path(), &output, &["--stats", text(&stats)]);
+    let more = ["--compress-textures", "--stats", text(&stats)];
+    let run = render_on_gpu(folder.path(), &output, &more);
     let said = String::from_utf8_lossy(&run.stderr);
     assert_eq!(run.status.code(), Some(0), "{said}");
+    assert!(said.contains("compression saves"), "{said}");
     let picture = image::open(&output).unwrap().to_rgb8();
     assert!(picture.pixels().any(|p| p.0[0] > 40) && picture.pixels().any(|p| p.0[0] < 20));
     let stats: serde_json::Value = serde_json::from_slice(&std::fs::read(&stats).unwrap()).unwrap();
     assert_eq!(stats["samples"], 32 * 24 * 2);
+    assert!(stats["textures"]["bytes_saved"].is_u64(), "{stats}");
     assert!(stats["pipeline_seconds"].as_f64().unwrap() > 0.0);
     let first = stats["first_sample_seconds"].as_f64().unwrap();
     assert!(first > stats["pipeline_seconds"].as_f64().unwrap());

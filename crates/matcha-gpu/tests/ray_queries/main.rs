@@ -10,7 +10,7 @@ use glam::{Affine3A, Mat3, Vec3};
 use matcha_gpu::device::Device;
 use matcha_gpu::memory::Sections;
 use matcha_gpu::shader::Library;
-use matcha_gpu::trace::structure;
+use matcha_gpu::trace::{WideTree, structure};
 use matcha_gpu::{GpuError, testing};
 use matcha_import::{LoadOptions, load};
 use matcha_render::accel::{Accel, Ray};
@@ -95,6 +95,13 @@ impl Case {
         let tracer = Tracer::over(device, library, sections, &self.rays)?;
         comparison::compare(&tracer, &self.accel, &self.rays)
     }
+
+    /// The same rays by our own walk on the same device.
+    fn compare_walk(&self, device: &Device) -> Result<Difference, GpuError> {
+        let tree = WideTree::new(&self.accel).expect("a hierarchy");
+        let tracer = Tracer::new(device, &tree, &self.rays)?;
+        comparison::compare(&tracer, &self.accel, &self.rays)
+    }
 }
 
 fn library(device: &Device) -> Library {
@@ -117,7 +124,10 @@ fn ray_queries_find_what_the_processor_finds() {
     for (name, case) in [("objects", Case::objects()), ("tea room", Case::tea_room())] {
         let found = case.compare(&device, library(&device));
         let difference = found.unwrap_or_else(|error| panic!("{error}"));
-        println!("{name}: {difference:?}");
+        let walk = case.compare_walk(&device);
+        let walk = walk.unwrap_or_else(|error| panic!("{error}"));
+        println!("{name}, ray queries: {difference:?}\n{name}, our walk: {walk:?}");
+        assert!(agrees(&walk, case.rays.len()), "{name}: {walk:?}");
         assert!(
             agrees(&difference, case.rays.len()),
             "{name}: {difference:?}"
