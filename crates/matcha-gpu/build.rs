@@ -5,8 +5,11 @@ use matcha_wgsl::{
     DispatchForm, FieldPlace, Module, Source, Translation, check, operations, translate,
 };
 use memory::placement::{Placement, PlacementLimits};
-use memory::section::{Declaration, column_declarations, constants, constants_text, declarations};
+use memory::section::{
+    Declaration, column_declarations, constants, constants_text, declarations, structures,
+};
 use naga::valid::Capabilities;
+use prelude::Dialect;
 use std::error::Error;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -87,8 +90,13 @@ fn build() -> Result<(), Box<dyn Error>> {
         "the machine's switch",
         &switch::switch(&codes),
     ));
-    for atomics_64 in [false, true] {
-        validate(&all, &host_layers, atomics_64)?;
+    // Every host layer is in one of the two.
+    for has in [false, true] {
+        let dialect = Dialect {
+            atomics_64: has,
+            ray_queries: has,
+        };
+        validate(&all, &host_layers, dialect)?;
     }
     let waves = host_layers
         .iter()
@@ -164,21 +172,30 @@ fn file(crates: &Path, path: &str) -> Result<Module, Box<dyn Error>> {
 }
 
 /// Has naga look at everything at once, with accessors of all sections that are declared.
-fn validate(code: &Source, host_layers: &[Module], atomics_64: bool) -> Result<(), Box<dyn Error>> {
-    let mut all = code.clone();
+fn validate(code: &Source, host_layers: &[Module], dialect: Dialect) -> Result<(), Box<dyn Error>> {
+    let mut all = Source::default();
+    if dialect.ray_queries {
+        all.append(&Source::written("directives", prelude::RAY_QUERIES));
+    }
+    all.append(code);
     all.append(&Source::written("prelude of kernels", &prelude::text()));
-    let types = memory::accessors::shared_types(atomics_64);
+    let types = memory::accessors::shared_types(dialect.atomics_64);
     all.append(&Source::written("accessors", &types));
     let declared = declarations(code.text()).map_err(|e| e.to_string())?;
     let one = |declaration| (declaration, 1);
     let mut sections: Vec<_> = declared.into_iter().map(one).collect();
     for layer in host_layers {
-        if !prelude::belongs(&layer.path, atomics_64) {
+        if !prelude::belongs(&layer.path, dialect) {
             continue;
         }
         all.append(&Source::written(&layer.path, &layer.source));
         let declared = declarations(&layer.source).map_err(|e| format!("{}: {e}", layer.path))?;
         sections.extend(declared.into_iter().map(one));
+        for (k, name) in structures(&layer.source).iter().enumerate() {
+            // In a group of their own, so that no binding is taken twice.
+            let text = memory::accessors::structure(name, 2, k);
+            all.append(&Source::written(&layer.path, &text));
+        }
         let constants = constants(&layer.source);
         all.append(&Source::written(&layer.path, &constants_text(&constants)));
     }
@@ -199,11 +216,9 @@ fn validate(code: &Source, host_layers: &[Module], atomics_64: bool) -> Result<(
     let placement = Placement::new(&sections, &unlimited)?;
     let accessors = memory::accessors::accessors(&placement, 1);
     all.append(&Source::written("accessors", &accessors));
-    let capabilities = if atomics_64 {
-        ATOMICS_64
-    } else {
-        Capabilities::empty()
-    };
+    let mut capabilities = Capabilities::empty();
+    capabilities.set(ATOMICS_64, dialect.atomics_64);
+    capabilities.set(Capabilities::RAY_QUERY, dialect.ray_queries);
     check(&all, capabilities)?;
     Ok(())
 }

@@ -52,6 +52,8 @@ pub struct AdapterReport {
     pub subgroup: [u32; 2],
     /// 64-bit atomic operations: the cache's table takes one of them for an entry.
     pub atomics_64: bool,
+    /// Ray queries through acceleration structures of the device's own: `--ray-queries`.
+    pub ray_queries: bool,
     /// Times per stage in `--stats`.
     pub timestamps: bool,
     /// Compiled kernels are kept on disk.
@@ -191,6 +193,7 @@ fn report(number: usize, adapter: &wgpu::Adapter) -> AdapterReport {
         invocations: limits.max_compute_invocations_per_workgroup,
         subgroup: [info.subgroup_min_size, info.subgroup_max_size],
         atomics_64: has(wgpu::Features::SHADER_INT64 | wgpu::Features::SHADER_INT64_ATOMIC_ALL_OPS),
+        ray_queries: has(wgpu::Features::EXPERIMENTAL_RAY_QUERY),
         timestamps: has(wgpu::Features::TIMESTAMP_QUERY),
         pipeline_cache: has(wgpu::Features::PIPELINE_CACHE),
         lacks: Vec::new(),
@@ -274,6 +277,7 @@ mod tests {
             invocations: 1024,
             subgroup: [8, 8],
             atomics_64: true,
+            ray_queries: false,
             timestamps: true,
             pipeline_cache: true,
             lacks: lacks.iter().map(|&l| l.to_owned()).collect(),

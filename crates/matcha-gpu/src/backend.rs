@@ -7,7 +7,7 @@ use crate::pipeline::Pipelines;
 use crate::wavefront::{GpuFrom, Wavefront};
 use matcha_cache::TableSize;
 use matcha_render::backend::{
-    Backend, CacheMode, Control, KernelTimes, RenderError, RenderOptions, Statistics,
+    Backend, CacheMode, Control, KernelTimes, RenderError, RenderOptions, Statistics, TextureMemory,
 };
 use matcha_render::film::Film;
 use matcha_render::prepare::Prepared;
@@ -40,6 +40,11 @@ pub struct GpuOptions {
     /// Which stages are left to the processor, to find out where devices differ; without it the
     /// device takes all of them, several bounces at once.
     pub gpu_from: Option<GpuFrom>,
+    /// Trace rays by the adapter's ray queries instead of by our own walk: experimental.
+    pub ray_queries: bool,
+    /// Images of bytes are packed in blocks: a quarter of the memory, at an error
+    /// ([`matcha_render::flat::BLOCK_ERROR`]).
+    pub compress_textures: bool,
     /// Where compiled kernels are kept.
     pub cache_folder: Option<PathBuf>,
 }
@@ -51,6 +56,8 @@ impl Default for GpuOptions {
             material_stage: MaterialStage::default(),
             sort_queues: None,
             gpu_from: None,
+            ray_queries: false,
+            compress_textures: false,
             cache_folder: None,
         }
     }
@@ -76,9 +83,9 @@ impl Gpu {
     /// Opens an adapter, whatever the options want.
     ///
     /// # Errors
-    /// If the driver refuses.
+    /// If it has no ray queries and they are asked for, or the driver refuses.
     pub fn open_adapter(adapter: &Adapter, options: GpuOptions) -> Result<Arc<Gpu>, GpuError> {
-        let device = Device::open(adapter)?;
+        let device = Device::open_with(adapter, options.ray_queries)?;
         let pipelines = Pipelines::new(&device, options.cache_folder.as_deref());
         Ok(Arc::new(Gpu {
             device,
@@ -186,6 +193,10 @@ impl Backend for GpuBackend {
 
     fn bytes(&self) -> usize {
         self.film.bytes() + self.wavefront.bytes()
+    }
+
+    fn texture_memory(&self) -> Option<TextureMemory> {
+        self.wavefront.texture_memory()
     }
 
     fn kernel_times(&self) -> KernelTimes {

@@ -2,7 +2,7 @@
 
 use crate::adapter::{Adapter, AdapterReport, Kind};
 use crate::error::{GpuError, one_line};
-use crate::shader::prelude::ARGUMENTS;
+use crate::shader::prelude::{ARGUMENTS, Dialect};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -31,25 +31,42 @@ struct Shared {
     submitting: Mutex<()>,
     patience: Duration,
     arguments_layout: wgpu::BindGroupLayout,
+    ray_queries: bool,
 }
 
 impl Device {
-    /// Opens an adapter with everything of it that Matcha uses.
+    /// Opens an adapter with everything of it that Matcha uses, but for ray queries.
     ///
     /// # Errors
     /// If the driver refuses.
     pub fn open(adapter: &Adapter) -> Result<Device, GpuError> {
+        Device::open_with(adapter, false)
+    }
+
+    /// Opens an adapter, with its ray queries if they are asked for: then kernels trace rays
+    /// through acceleration structures.
+    ///
+    /// # Errors
+    /// If the adapter has no ray queries, or the driver refuses.
+    pub fn open_with(adapter: &Adapter, ray_queries: bool) -> Result<Device, GpuError> {
         let report = adapter.report().clone();
-        let used = wgpu::Features::SHADER_INT64
+        if ray_queries && !report.ray_queries {
+            return Err(GpuError::NoRayQueries {
+                adapter: report.name,
+            });
+        }
+        let mut used = wgpu::Features::SHADER_INT64
             | wgpu::Features::SHADER_INT64_ATOMIC_ALL_OPS
             | wgpu::Features::SHADER_INT64_ATOMIC_MIN_MAX
             | wgpu::Features::TIMESTAMP_QUERY
             | wgpu::Features::PIPELINE_CACHE;
+        used.set(wgpu::Features::EXPERIMENTAL_RAY_QUERY, ray_queries);
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("matcha"),
             required_features: adapter.handle.features() & used,
             required_limits: adapter.handle.limits(),
             memory_hints: wgpu::MemoryHints::MemoryUsage,
+            experimental_features: experimental_features(ray_queries),
             ..Default::default()
         };
         let opened = pollster::block_on(adapter.handle.request_device(&descriptor));
@@ -75,6 +92,7 @@ impl Device {
                 trouble,
                 submitting: Mutex::default(),
                 patience,
+                ray_queries,
             }),
         })
     }
@@ -82,6 +100,19 @@ impl Device {
     /// Whether kernels may use 64-bit atomic operations.
     pub fn has_atomics_64(&self) -> bool {
         self.report().atomics_64
+    }
+
+    /// Whether kernels trace rays through acceleration structures of the device's.
+    pub fn has_ray_queries(&self) -> bool {
+        self.shared.ray_queries
+    }
+
+    /// The dialect of its kernels.
+    pub fn dialect(&self) -> Dialect {
+        Dialect {
+            atomics_64: self.has_atomics_64(),
+            ray_queries: self.has_ray_queries(),
+        }
     }
 
     /// What it is and offers.
@@ -218,6 +249,19 @@ impl Device {
             None => Ok(()),
             Some(error) => Err(error.clone()),
         }
+    }
+}
+
+/// wgpu's token for what it calls experimental, which only ray queries need.
+fn experimental_features(wanted: bool) -> wgpu::ExperimentalFeatures {
+    if !wanted {
+        return wgpu::ExperimentalFeatures::disabled();
+    }
+    // SAFETY: what is promised is to know that wgpu may have mistakes there, and to report them.
+    // People ask for it by an option that says so; nothing else is opened with it.
+    #[allow(unsafe_code)]
+    unsafe {
+        wgpu::ExperimentalFeatures::enabled()
     }
 }
 

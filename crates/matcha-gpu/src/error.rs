@@ -32,6 +32,15 @@ pub enum GpuError {
         /// What it lacks.
         lacks: Vec<String>,
     },
+    /// It has no ray queries, but they were asked for.
+    #[error(
+        "{adapter} has no hardware ray queries: render without --ray-queries, or choose another with --device \
+         (matcha devices says which has them)"
+    )]
+    NoRayQueries {
+        /// The adapter's name.
+        adapter: String,
+    },
     /// The driver does not open it.
     #[error(
         "{adapter} cannot be opened ({message}): is another program using it, or its driver out of date?"

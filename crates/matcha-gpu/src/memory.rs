@@ -1,6 +1,7 @@
 //! The device's memory: sections in buffers, and the way to and from them.
 
 pub mod accessors;
+mod binding;
 pub mod placement;
 pub mod section;
 pub(crate) mod transfer;
@@ -20,6 +21,7 @@ use std::collections::BTreeMap;
 pub struct Sections<'a> {
     list: Vec<(Declaration, u64)>,
     contents: Vec<(String, Cow<'a, [u32]>)>,
+    structures: Vec<(String, wgpu::Tlas)>,
     binding_bytes: Option<u64>,
 }
 
@@ -62,6 +64,11 @@ impl<'a> Sections<'a> {
         Ok(())
     }
 
+    /// An acceleration structure, as a shader declares it (`//@ structure NAME`).
+    pub fn structure(&mut self, name: &str, structure: wgpu::Tlas) {
+        self.structures.push((name.to_owned(), structure));
+    }
+
     /// Makes the buffers of bind group `group` and fills them. `others` are the memories
     /// that kernels are bound to beside this one: they share the number of bindings.
     ///
@@ -86,7 +93,7 @@ impl<'a> Sections<'a> {
             uniform_bytes: limits.max_uniform_buffer_binding_size,
         };
         let placement = Placement::new(&self.list, &limits)?;
-        let mut memory = Memory::new(device, group, placement)?;
+        let mut memory = Memory::new(device, group, placement, self.structures)?;
         for (name, words) in &self.contents {
             memory.write(name, 0, words)?;
         }
@@ -106,10 +113,17 @@ pub struct Memory {
     layout: wgpu::BindGroupLayout,
     bind_group: wgpu::BindGroup,
     items: BTreeMap<String, Item>,
+    /// How many acceleration structures are bound behind the arenas.
+    structures: usize,
 }
 
 impl Memory {
-    fn new(device: &Device, group: u32, placement: Placement) -> Result<Memory, GpuError> {
+    fn new(
+        device: &Device,
+        group: u32,
+        placement: Placement,
+        structures: Vec<(String, wgpu::Tlas)>,
+    ) -> Result<Memory, GpuError> {
         let header_words = placement.header();
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let header = buffer(device, "the header", header_words.len() as u64 * 4, usage)?;
@@ -122,9 +136,12 @@ impl Memory {
             let bytes = arena.length * arena.class.words() * 4;
             arenas.push(buffer(device, &what, bytes, usage)?);
         }
-        let layout = layout(device, &placement)?;
-        let bind_group = bind_group(device, &layout, &header, &arenas)?;
-        let text = accessors::accessors(&placement, group);
+        let layout = binding::layout(device, &placement, structures.len())?;
+        let bind_group = binding::bind_group(device, &layout, &header, &arenas, &structures)?;
+        let mut text = accessors::accessors(&placement, group);
+        for (binding, (name, _)) in (1 + arenas.len()..).zip(&structures) {
+            text += &accessors::structure(name, group, binding);
+        }
         let names = placement.sections.iter().enumerate();
         let memory = Memory {
             device: device.clone(),
@@ -141,6 +158,7 @@ impl Memory {
                 .into_iter()
                 .map(|item| (item.name.clone(), item))
                 .collect(),
+            structures: structures.len(),
             placement,
         };
         memory.write_header();
@@ -194,7 +212,7 @@ impl Memory {
             .iter()
             .map(|a| a.class.name())
             .collect();
-        format!("{} {};", self.group, classes.join(" "))
+        format!("{} {} +{};", self.group, classes.join(" "), self.structures)
     }
 
     /// The bindings and accessors in WGSL.
@@ -341,56 +359,6 @@ pub(crate) fn buffer(
             size: bytes,
             usage,
             mapped_at_creation: false,
-        })
-    })
-}
-
-fn layout(device: &Device, placement: &Placement) -> Result<wgpu::BindGroupLayout, GpuError> {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty,
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let mut entries = vec![entry(0, wgpu::BufferBindingType::Uniform)];
-    for (binding, arena) in (1..).zip(&placement.arenas) {
-        let read_only = arena.class.read_only();
-        entries.push(entry(
-            binding,
-            wgpu::BufferBindingType::Storage { read_only },
-        ));
-    }
-    device.create("a layout", 0, |device| {
-        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: None,
-            entries: &entries,
-        })
-    })
-}
-
-fn bind_group(
-    device: &Device,
-    layout: &wgpu::BindGroupLayout,
-    header: &wgpu::Buffer,
-    arenas: &[wgpu::Buffer],
-) -> Result<wgpu::BindGroup, GpuError> {
-    let buffers = [header].into_iter().chain(arenas);
-    let entries: Vec<wgpu::BindGroupEntry> = (0..)
-        .zip(buffers)
-        .map(|(binding, buffer)| wgpu::BindGroupEntry {
-            binding,
-            resource: buffer.as_entire_binding(),
-        })
-        .collect();
-    device.create("bindings", 0, |device| {
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout,
-            entries: &entries,
         })
     })
 }

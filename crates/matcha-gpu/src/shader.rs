@@ -5,8 +5,9 @@ pub mod items;
 pub mod prelude;
 
 use crate::memory::Memory;
-use crate::memory::section::{Declaration, constants, constants_text, declarations};
+use crate::memory::section::{Declaration, constants, constants_text, declarations, structures};
 use items::{Item, items, workgroup_size};
+use prelude::Dialect;
 use std::collections::{BTreeMap, BTreeSet};
 
 mod embedded {
@@ -80,21 +81,33 @@ pub struct Linked {
 }
 
 impl Library {
-    /// The crate's own: translated device code and the host layers of `src/wgsl`, with
-    /// those for devices that have 64-bit atomic operations or those for the others.
+    /// The crate's own for devices that have 64-bit atomic operations or for the others, with
+    /// our own walk of rays.
     ///
     /// # Errors
     /// None that the build script would not have found.
     pub fn embedded(atomics_64: bool) -> Result<Library, LinkError> {
+        Library::in_dialect(Dialect {
+            atomics_64,
+            ray_queries: false,
+        })
+    }
+
+    /// The crate's own: translated device code and the host layers of `src/wgsl` that belong to
+    /// a dialect.
+    ///
+    /// # Errors
+    /// None that the build script would not have found.
+    pub fn in_dialect(dialect: Dialect) -> Result<Library, LinkError> {
         let mut library = Library::default();
         library.add("prelude", &prelude::text())?;
         library.add(
             "accessors",
-            &crate::memory::accessors::shared_types(atomics_64),
+            &crate::memory::accessors::shared_types(dialect.atomics_64),
         )?;
         library.add("device code", embedded::DEVICE_CODE)?;
         for (file, text) in embedded::HOST_LAYERS {
-            if prelude::belongs(file, atomics_64) {
+            if prelude::belongs(file, dialect) {
                 library.add(file, text)?;
             }
         }
@@ -124,6 +137,9 @@ impl Library {
             file: file.to_owned(),
             message: error.to_string(),
         })?;
+        for name in structures(source) {
+            self.accessors.insert(name.clone(), name);
+        }
         for section in sections {
             for prefix in prelude::ACCESSORS {
                 let accessor = format!("{prefix}_{}", section.name);
@@ -181,11 +197,13 @@ impl Library {
         let no_kernel = || LinkError::NoKernel(kernel.to_owned());
         let entry = self.items.get(kernel).ok_or_else(no_kernel)?;
         let mut text = String::new();
+        let mut queries = false;
         let mut taken = BTreeSet::from([kernel]);
         let mut open = vec![entry];
         while let Some(item) = open.pop() {
             text.push_str(&item.text);
             text.push('\n');
+            queries |= item.uses.iter().any(|name| name == "ray_query");
             for name in &item.uses {
                 let bound = || memories.iter().find_map(|memory| memory.item(name));
                 let Some(found) = self.items.get(name).or_else(bound) else {
@@ -203,6 +221,9 @@ impl Library {
                     open.push(found);
                 }
             }
+        }
+        if queries {
+            text.insert_str(0, prelude::RAY_QUERIES);
         }
         Ok(Linked {
             text,

@@ -176,6 +176,20 @@ pub struct KernelTimes {
     pub stage_seconds: BTreeMap<&'static str, f64>,
 }
 
+/// Memory of images on a device that packs them in blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct TextureMemory {
+    /// Bytes of all images' texels.
+    pub bytes: u64,
+    /// Bytes that they would be more without blocks.
+    pub bytes_saved: u64,
+    /// Resolutions of images in blocks.
+    pub packed_levels: u32,
+    /// Resolutions of images of bytes that stay as they are: those for which blocks would be off
+    /// by too much, or would be no smaller.
+    pub kept_levels: u32,
+}
+
 /// A device with a scene on it.
 pub trait Backend {
     /// The device's name for people and reports.
@@ -197,6 +211,11 @@ pub trait Backend {
     /// Bytes of programs and film, and of what the device holds beside them (the cache's
     /// are in the statistics, the scene's are the prepared scene's).
     fn bytes(&self) -> usize;
+
+    /// Memory of images, where they were to be packed.
+    fn texture_memory(&self) -> Option<TextureMemory> {
+        None
+    }
 
     /// Times of kernels so far.
     fn kernel_times(&self) -> KernelTimes {

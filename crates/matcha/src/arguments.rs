@@ -122,6 +122,14 @@ pub(crate) struct Options {
     /// Leave the stages before this one to the processor, to find out which one differs on a GPU
     #[arg(long, value_enum, value_name = "STAGE", hide = true)]
     pub gpu_from: Option<GpuFrom>,
+    /// Experimental: trace rays by the ray queries of a GPU that has them (`matcha devices` says
+    /// which) instead of by Matcha's own hierarchy
+    #[arg(long)]
+    pub ray_queries: bool,
+    /// Pack images of 8 bits a channel in blocks on a GPU: a quarter of their memory, where the
+    /// error is small (at most 4 of 255 in the mean)
+    #[arg(long)]
+    pub compress_textures: bool,
     /// Write full statistics
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,

@@ -8,7 +8,9 @@ use crate::loading;
 use crate::picture::view::View;
 use crate::progress::Watch;
 use anyhow::{Result, anyhow, bail};
-use matcha_render::backend::{Backend, Control, KernelTimes, RenderError, Statistics};
+use matcha_render::backend::{
+    Backend, Control, KernelTimes, RenderError, Statistics, TextureMemory,
+};
 use matcha_render::prepare::Prepared;
 use serde::Serialize;
 use std::ops::Range;
@@ -95,10 +97,12 @@ impl Loaded {
         options: &Options,
         caches: [Cache; N],
     ) -> Result<[Box<dyn Backend>; N]> {
-        device.backends(
-            &self.prepared,
-            caches.map(|cache| options.render_options(cache)),
-        )
+        let caches = caches.map(|cache| options.render_options(cache));
+        let backends = device.backends(&self.prepared, caches)?;
+        if options.compress_textures {
+            log_textures(backends.first().and_then(|b| b.texture_memory()));
+        }
+        Ok(backends)
     }
 
     /// Picture size, pixels.
@@ -127,6 +131,22 @@ impl Loaded {
             .step_by(SLICE as usize)
             .map(move |start| start..(start + SLICE).min(end))
     }
+}
+
+/// Says what packed images save.
+fn log_textures(memory: Option<TextureMemory>) {
+    let Some(memory) = memory else {
+        tracing::warn!("--compress-textures is for GPUs: the CPU's images stay as they are");
+        return;
+    };
+    let mebibytes = |bytes: u64| bytes as f64 / f64::from(1 << 20);
+    tracing::info!(
+        "images take {:.1} MiB, compression saves {:.1} MiB; {} of {} resolutions stay as they are",
+        mebibytes(memory.bytes),
+        mebibytes(memory.bytes_saved),
+        memory.kept_levels,
+        memory.kept_levels + memory.packed_levels
+    );
 }
 
 /// How a rendering ended that has something to save.
@@ -211,6 +231,8 @@ pub(crate) struct FullStatistics {
     peak_bytes: Option<u64>,
     /// From the start of the program to the first pixel sample of any renderer.
     first_sample_seconds: Option<f64>,
+    /// Of images that were to be compressed.
+    textures: Option<TextureMemory>,
     #[serde(flatten)]
     kernels: KernelTimes,
     #[serde(flatten)]
@@ -232,6 +254,7 @@ impl FullStatistics {
             renderer_bytes: backend.bytes(),
             peak_bytes: peak_memory(),
             first_sample_seconds: first_sample_seconds(),
+            textures: backend.texture_memory(),
             kernels: backend.kernel_times(),
             statistics,
         }

@@ -82,6 +82,7 @@ fn adapters_are_listed_with_what_they_have_and_lack() {
         "name",
         "number",
         "pipeline_cache",
+        "ray_queries",
         "storage_buffers",
         "subgroup",
         "timestamps",
@@ -144,6 +145,31 @@ fn what_no_adapter_is_called_is_refused_by_name() {
     let stage = ["gpu", "--material-stage", "twice"];
     let sentence = refused(&run(&mut matcha(), &[&arguments[..], &stage].concat()));
     assert!(sentence.contains("twice"), "{sentence}");
+}
+
+#[test]
+fn ray_queries_are_refused_where_there_are_none() {
+    let arguments = [
+        "render",
+        "none.glb",
+        "-o",
+        "a.png",
+        "--ray-queries",
+        "--device",
+    ];
+    let refuse = |device: &str| refused(&run(&mut matcha(), &[&arguments[..], &[device]].concat()));
+    let sentence = refuse("cpu");
+    assert!(sentence.contains("--ray-queries is for GPUs"), "{sentence}");
+    for adapter in adapters().unwrap_or_default() {
+        let lacks = adapter["lacks"].as_array().unwrap();
+        if adapter["ray_queries"] == false && lacks.is_empty() {
+            let sentence = refuse(&format!("gpu:{}", adapter["number"]));
+            assert!(
+                sentence.contains("has no hardware ray queries"),
+                "{sentence}"
+            );
+        }
+    }
 }
 
 #[test]
@@ -223,13 +249,16 @@ fn a_gpu_renders_and_its_times_are_in_the_statistics() {
         folder.path().join("a.png"),
         folder.path().join("stats.json"),
     );
-    let run = render_on_gpu(folder.path(), &output, &["--stats", text(&stats)]);
+    let more = ["--compress-textures", "--stats", text(&stats)];
+    let run = render_on_gpu(folder.path(), &output, &more);
     let said = String::from_utf8_lossy(&run.stderr);
     assert_eq!(run.status.code(), Some(0), "{said}");
+    assert!(said.contains("compression saves"), "{said}");
     let picture = image::open(&output).unwrap().to_rgb8();
     assert!(picture.pixels().any(|p| p.0[0] > 40) && picture.pixels().any(|p| p.0[0] < 20));
     let stats: serde_json::Value = serde_json::from_slice(&std::fs::read(&stats).unwrap()).unwrap();
     assert_eq!(stats["samples"], 32 * 24 * 2);
+    assert!(stats["textures"]["bytes_saved"].is_u64(), "{stats}");
     assert!(stats["pipeline_seconds"].as_f64().unwrap() > 0.0);
     let first = stats["first_sample_seconds"].as_f64().unwrap();
     assert!(first > stats["pipeline_seconds"].as_f64().unwrap());

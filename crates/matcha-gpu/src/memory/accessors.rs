@@ -37,6 +37,11 @@ pub fn shared_types(atomics_64: bool) -> String {
     format!("{EXCHANGED}{more}")
 }
 
+/// The binding of an acceleration structure.
+pub fn structure(name: &str, group: u32, binding: usize) -> String {
+    format!("@group({group}) @binding({binding}) var {name}: acceleration_structure;\n")
+}
+
 /// The bindings of group `group` and all accessors of its sections.
 pub fn accessors(placement: &Placement, group: u32) -> String {
     let mut text = String::new();

@@ -101,7 +101,7 @@ impl fmt::Display for BadDeclaration {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(
             f,
-            "line {}: `{}` declares no section: it is //@ read|read4|write|write4|atomic|atomic64|plain NAME [STRIDE], //@ columns NAME STRUCT or //@ constant NAME VALUE",
+            "line {}: `{}` declares no section: it is //@ read|read4|write|write4|atomic|atomic64|plain NAME [STRIDE], //@ columns NAME STRUCT, //@ structure NAME or //@ constant NAME VALUE",
             self.line, self.text
         )
     }
@@ -116,6 +116,19 @@ pub fn column_declarations(source: &str) -> Vec<(usize, String, String)> {
         let words: Vec<&str> = text.split_whitespace().collect();
         if let ["//@", "columns", name, of] = words.as_slice() {
             all.push((i + 1, (*name).to_owned(), (*of).to_owned()));
+        }
+    }
+    all
+}
+
+/// The acceleration structures that a WGSL file sends rays through, in lines
+/// `//@ structure NAME`: bindings of their own, called by their names.
+pub fn structures(source: &str) -> Vec<String> {
+    let mut all = Vec::new();
+    for text in source.lines() {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        if let ["//@", "structure", name] = words.as_slice() {
+            all.push((*name).to_owned());
         }
     }
     all
@@ -142,7 +155,8 @@ pub fn constants_text(constants: &[(String, u32)]) -> String {
     constants.iter().map(one).collect()
 }
 
-/// The sections that a WGSL file declares, in lines that begin with `//@`, but for columns.
+/// The sections that a WGSL file declares, in lines that begin with `//@`, but for columns and
+/// structures.
 pub fn declarations(source: &str) -> Result<Vec<Declaration>, BadDeclaration> {
     let mut all = Vec::new();
     for (i, text) in source.lines().enumerate() {
@@ -151,7 +165,7 @@ pub fn declarations(source: &str) -> Result<Vec<Declaration>, BadDeclaration> {
         };
         if matches!(
             words.split_whitespace().next(),
-            Some("columns" | "constant")
+            Some("columns" | "constant" | "structure")
         ) {
             continue;
         }

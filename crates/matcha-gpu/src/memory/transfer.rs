@@ -10,7 +10,7 @@ use std::time::Duration;
 const CHUNK: u64 = 32 << 20;
 
 /// Writes words from byte `offset` on.
-pub(super) fn upload(
+pub(crate) fn upload(
     device: &Device,
     to: &wgpu::Buffer,
     offset: u64,

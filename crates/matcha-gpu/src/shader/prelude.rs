@@ -30,13 +30,28 @@ fn invocation_number(workgroup: vec3u, local: u32) -> u32 {{ return workgroup_nu
     )
 }
 
-/// True if a host layer is for devices with 64-bit atomic operations (`…_int64.wgsl`), or
-/// those without (`…_int32.wgsl`), or all.
-pub fn belongs(file: &str, atomics_64: bool) -> bool {
+/// Which of the host layers that exclude each other a device's kernels are made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dialect {
+    /// 64-bit atomic operations (`…_int64.wgsl`), or not (`…_int32.wgsl`).
+    pub atomics_64: bool,
+    /// The device's ray queries (`…_query.wgsl`), or our own walk (`…_walk.wgsl`).
+    pub ray_queries: bool,
+}
+
+/// What a kernel with ray queries begins with.
+pub const RAY_QUERIES: &str = "enable wgpu_ray_query;\n";
+
+/// True if a host layer belongs to a dialect; most belong to all.
+pub fn belongs(file: &str, dialect: Dialect) -> bool {
     let stem = file.strip_suffix(".wgsl").unwrap_or(file);
-    match (stem.ends_with("_int64"), stem.ends_with("_int32")) {
-        (true, _) => atomics_64,
-        (_, true) => !atomics_64,
-        _ => true,
-    }
+    let endings = [
+        ("_int64", dialect.atomics_64),
+        ("_int32", !dialect.atomics_64),
+        ("_query", dialect.ray_queries),
+        ("_walk", !dialect.ray_queries),
+    ];
+    endings
+        .iter()
+        .all(|(ending, has)| *has || !stem.ends_with(ending))
 }

@@ -23,6 +23,30 @@ pub enum TraceError {
         /// Most levels.
         most: u32,
     },
+    /// More instances than hits can tell apart.
+    #[error(
+        "the scene has {instances} instances, but the device's acceleration structures hold {most}: render without \
+         --ray-queries"
+    )]
+    TooManyInstances {
+        /// Instances.
+        instances: usize,
+        /// Most instances.
+        most: u32,
+    },
+    /// A mesh of more than a structure holds.
+    #[error(
+        "mesh {mesh:?} has {elements} triangles or vertices, but an acceleration structure of the device holds \
+         {most}: render without --ray-queries"
+    )]
+    MeshTooLarge {
+        /// The mesh.
+        mesh: String,
+        /// Triangles or vertices, whichever are more.
+        elements: usize,
+        /// Most of them.
+        most: u32,
+    },
     /// More than can be addressed.
     #[error(
         "the scene has too many triangles for the device ({bytes} bytes of hierarchy): render with --device cpu"
@@ -88,7 +112,7 @@ impl WideTree {
     }
 
     /// Entries of the stack that kernels are to be compiled for (`TRACE_STACK` in
-    /// `traverse.wgsl`): a walk leaves at most one entry a level.
+    /// `traverse_walk.wgsl`): a walk leaves at most one entry a level.
     pub fn stack(&self) -> u32 {
         let enough = STACKS.into_iter().find(|&stack| stack >= self.levels);
         enough.unwrap_or(self.levels)

@@ -38,7 +38,7 @@ use crate::shader::{Library, LinkError};
 use crate::twin::Twin;
 use bisect::Bisection;
 use kernels::Kernels;
-use matcha_render::backend::{CacheMode, Control, RenderOptions};
+use matcha_render::backend::{CacheMode, Control, RenderOptions, TextureMemory};
 use matcha_render::film::Film;
 use matcha_render::flat::FlatScene;
 use matcha_render::prepare::Prepared;
@@ -66,6 +66,7 @@ pub struct Wavefront {
     /// Slots that are in use: fewer than there are where dispatches would take too long.
     in_use: u32,
     width: u32,
+    textures: Option<TextureMemory>,
     totals: Totals,
     time: Duration,
 }
@@ -106,13 +107,15 @@ impl Wavefront {
         let programs = prepared
             .programs(cached)
             .map_err(|error| invalid(error.to_string()))?;
-        let flat = FlatScene::new(prepared, &programs);
-        let mut library = Library::embedded(device.has_atomics_64())?;
+        let flat = FlatScene::with_textures(prepared, &programs, gpu.compress_textures);
+        let textures = flat.texture_memory();
+        let mut library = Library::in_dialect(device.dialect())?;
         change(&mut library)?;
         library.add(
             "the scene's operations",
             &switch(flat.programs().operations()),
         )?;
+        library.set_constant("TEXTURE_HAS_BLOCKS", gpu.compress_textures.into())?;
         library.set_constant("MACHINE_REGISTERS", registers(flat.programs().registers()))?;
         let table = table::place(device, &library, &options.cache, &flat)?;
         let tables: Vec<&Memory> = table.iter().collect();
@@ -163,6 +166,7 @@ impl Wavefront {
             kernels,
             form,
             width,
+            textures,
             totals: Totals::default(),
             time: Duration::ZERO,
         };
@@ -269,6 +273,11 @@ impl Wavefront {
         let counts = self.table.as_ref().map(table::read_counts);
         self.totals
             .statistics(counts, self.runner.stage_seconds(), self.time)
+    }
+
+    /// Memory of images, where they were to be packed.
+    pub fn texture_memory(&self) -> Option<TextureMemory> {
+        self.textures
     }
 
     /// Bytes of everything on the device but the cache's table.

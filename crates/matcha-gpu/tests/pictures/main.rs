@@ -100,6 +100,22 @@ fn the_devices_picture_is_the_processors() {
     }
 }
 
+/// The same with the device's ray queries. Drivers on the processor compile all kernels once more
+/// for it, which takes minutes; their rays are tested in `tests/ray_queries`.
+#[test]
+#[ignore = "compiles for minutes on a driver on the processor"]
+fn a_picture_by_ray_queries_is_the_processors() {
+    let Some(device) = testing::ray_query_device() else {
+        return;
+    };
+    let prepared = prepared();
+    let pipelines = Pipelines::new(&device, None);
+    let (cache, stage) = (CacheMode::Off, MaterialStage::Split);
+    let there = picture(&device, &pipelines, &prepared, cache, stage, false);
+    let expected = processors_picture(&prepared, cache, 3);
+    assert_eq!(difference(&there, &expected, OTHER_PATHS), None);
+}
+
 #[test]
 fn another_picture_is_noticed() {
     let prepared = prepared();

@@ -8,7 +8,7 @@ use matcha_render::{accel, scene, surface};
 #[allow(dead_code)]
 mod fixture;
 
-use fixture::{Random, all_kinds, hit, images, looks, path};
+use fixture::{Random, all_kinds, hit, images, looks, path, smooth_images};
 use glam::{Vec2, vec2};
 use matcha_gpu::batch::{Extent, Runner};
 use matcha_gpu::device::Device;
@@ -23,7 +23,7 @@ use matcha_render::device::geometry_view::geometry_point;
 use matcha_render::device::surface_path::PathInfo;
 use matcha_render::device::texture_view::texture_sample;
 use matcha_render::flat::{FlatGeometry, FlatTextures, Section};
-use matcha_render::scene::Camera;
+use matcha_render::scene::{Camera, Image};
 use matcha_render::surface::{SurfaceTables, View};
 use matcha_render::texture::TextureSet;
 use matcha_shade::input::{Input, InputKind};
@@ -274,10 +274,9 @@ struct Places {
     places: Vec<(u32, [Vec2; 3])>,
 }
 
-fn places() -> Places {
+fn places(images: &[Image], packs: bool) -> Places {
     let looks = looks();
-    let images = images();
-    let set = TextureSet::build(&images, &looks);
+    let set = TextureSet::build(images, &looks);
     let mut random = Random(6);
     let place = |i: usize| {
         let uv = vec2(random.unit() * 6.0 - 3.0, random.unit() * 6.0 - 3.0);
@@ -287,7 +286,7 @@ fn places() -> Places {
     };
     Places {
         places: (0..COUNT).map(place).collect(),
-        flat: FlatTextures::of_set(&set, &looks),
+        flat: FlatTextures::of_set(&set, &looks, packs),
     }
 }
 
@@ -325,12 +324,17 @@ fn images_are_filtered_as_on_the_processor() {
     let Some(device) = testing::device() else {
         return;
     };
-    let found = places().compare(&device, None);
-    println!(
-        "{} of {} values have the same bits; largest difference {}",
-        found.same, found.all, found.largest
-    );
-    assert!(found.largest <= TEXTURE_ERROR, "{}", found.largest);
+    let (plain, packed) = (places(&images(), false), places(&smooth_images(), true));
+    let packs = packed.flat.memory().expect("it is packed");
+    assert!(packs.packed_levels >= 4, "{packs:?}");
+    for places in [plain, packed] {
+        let found = places.compare(&device, None);
+        println!(
+            "{} of {} values have the same bits; largest difference {}",
+            found.same, found.all, found.largest
+        );
+        assert!(found.largest <= TEXTURE_ERROR, "{}", found.largest);
+    }
 }
 
 #[test]
@@ -338,6 +342,8 @@ fn must_fail_a_corrupted_texel_is_noticed() {
     let Some(device) = testing::device() else {
         return;
     };
-    let found = places().compare(&device, Some("TextureView_texels"));
-    assert!(found.largest > 100.0 * TEXTURE_ERROR, "it is not noticed");
+    for (images, packs) in [(images(), false), (smooth_images(), true)] {
+        let found = places(&images, packs).compare(&device, Some("TextureView_texels"));
+        assert!(found.largest > 100.0 * TEXTURE_ERROR, "it is not noticed");
+    }
 }

@@ -26,6 +26,16 @@ impl Tracer {
         sections.filled(&library, "bvh_nodes", bytemuck::cast_slice(&tree.nodes))?;
         let triangles: &[u32] = bytemuck::cast_slice(&tree.triangles);
         sections.filled(&library, "bvh_triangles", triangles)?;
+        Tracer::over(device, library, sections, rays)
+    }
+
+    /// A scene in whatever sections the library's kernels read, and rays on the device.
+    pub fn over(
+        device: &Device,
+        library: Library,
+        mut sections: Sections,
+        rays: &[Ray],
+    ) -> Result<Tracer, GpuError> {
         sections.filled(&library, "trace_rays", ray_rows(rays))?;
         sections.zeroed(&library, "trace_hits", (HIT_ROWS * rays.len()) as u64)?;
         Ok(Tracer {

@@ -98,23 +98,6 @@ pub fn scene(instances: usize, triangles: u32, seed: u64) -> Scene {
     }
 }
 
-/// Triangles each smaller than the one before by a ratio, around the same point.
-pub fn nested(count: i32, ratio: f32) -> Scene {
-    let mut mesh = Mesh::default();
-    for k in 0..count {
-        let size = ratio.powi(k);
-        let corner = |axis: Vec3| axis * size + Vec3::splat(size * 0.1);
-        mesh.positions
-            .extend([corner(Vec3::X), corner(Vec3::Y), corner(Vec3::Z)]);
-        let first = 3 * k as u32;
-        mesh.indices.push([first, first + 1, first + 2]);
-    }
-    let mut scene = scene(1, 1, 1);
-    scene.instances[0].transform = Affine3A::IDENTITY;
-    scene.meshes = vec![mesh];
-    scene
-}
-
 /// Rays as a path tracer has them: from everywhere, from surfaces onward, along axes, limited ones
 /// and such that have no direction.
 pub fn rays(accel: &Accel, extent: f32, count: usize, seed: u64) -> Vec<Ray> {

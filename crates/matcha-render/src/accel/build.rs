@@ -171,12 +171,16 @@ impl Builder {
 /// Coordinates beyond have squares that are no numbers, metres.
 const FARTHEST: f32 = 1e18;
 
+/// True if a place has coordinates whose squares are numbers.
+pub fn is_near(place: Vec3) -> bool {
+    place.is_finite() && place.abs().max_element() < FARTHEST
+}
+
 /// False for triangles without area, or with coordinates whose squares are no numbers.
-fn is_hittable(corners: [Vec3; 3]) -> bool {
+pub fn is_hittable(corners: [Vec3; 3]) -> bool {
     let [a, b, c] = corners;
     let area = (b - a).cross(c - a).length_squared();
-    let sound = |p: Vec3| p.is_finite() && p.abs().max_element() < FARTHEST;
-    corners.iter().all(|&p| sound(p))
+    corners.iter().all(|&p| is_near(p))
         && area.is_finite()
         && (b - a) != Vec3::ZERO
         && (c - a) != Vec3::ZERO
@@ -327,8 +331,7 @@ pub(super) fn build(scene: &Scene, options: &BuildOptions) -> Result<Accel, Acce
         for &i in users {
             let transform = scene.instances[i].transform;
             let bounds = placed_bounds(&own.triangles, &transform);
-            let sound = |p: Vec3| p.is_finite() && p.abs().max_element() < FARTHEST;
-            if !(sound(bounds.min) && sound(bounds.max)) {
+            if !(is_near(bounds.min) && is_near(bounds.max)) {
                 builder.dropped += own.triangles.len();
                 continue;
             }

@@ -18,7 +18,7 @@ mod tests;
 mod traverse;
 mod validate;
 
-pub use build::BuildOptions;
+pub use build::{BuildOptions, is_hittable, is_near};
 pub use node::{Bounds, LEAF_PACKS, Link, Node, PACK, Pack, WIDTH};
 pub use ray::{Hit, NOTHING, Ray, offset_origin, ray_kind, visibility_mask};
 pub use traverse::{Placement, Tree};

@@ -50,6 +50,7 @@ pub mod surface_input;
 pub mod surface_path;
 pub mod surface_point;
 pub mod surface_view;
+pub mod texture_block;
 pub mod texture_color;
 pub mod texture_filter;
 pub mod texture_view;

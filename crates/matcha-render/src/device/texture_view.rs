@@ -1,5 +1,6 @@
 //! All images of a scene in a few arrays, as graphics devices read them; `flat` makes them.
 
+use crate::device::texture_block::*;
 use crate::device::texture_color::{srgb_to_linear, texture_unassociated};
 use crate::device::texture_filter::*;
 use bytemuck::{Pod, Zeroable};
@@ -12,6 +13,16 @@ pub const TEXTURE_ENCODED: u32 = 1;
 pub const TEXTURE_PREMULTIPLIED: u32 = 2;
 /// Bit of [`TextureImage::flags`]: alpha reads 1.
 pub const TEXTURE_OPAQUE: u32 = 4;
+
+/// [`TextureLevel::form`]: the bytes of a word are a texel.
+pub const TEXTURE_BYTES: u32 = 0;
+/// [`TextureLevel::form`]: four floats are a texel.
+pub const TEXTURE_FLOATS: u32 = 1;
+/// [`TextureLevel::form`]: four words are a block of sixteen texels.
+pub const TEXTURE_BLOCKS: u32 = 2;
+
+/// Hosts that have no blocks set it to 0, so that their kernels are not made for them.
+pub const TEXTURE_HAS_BLOCKS: u32 = 1;
 
 /// Colour as stored: premultiplied by alpha.
 pub const TEXTURE_ALPHA_ASSOCIATED: u32 = 0;
@@ -61,8 +72,8 @@ pub struct TextureLevel {
     pub height: u32,
     /// Into `texels`, in words.
     pub first: u32,
-    /// 1: a texel is four floats, otherwise the bytes of one word.
-    pub is_float: u32,
+    /// One of `TEXTURE_BYTES` and its siblings.
+    pub form: u32,
 }
 
 /// A colour with alpha.
@@ -87,10 +98,34 @@ pub struct TextureView<'a> {
     pub texels: &'a [u32],
 }
 
-/// Texel `index` of a level, bytes as 0 to 255.
+/// Texel `x` of a row, counted from the top, of a level in blocks, 0 to 255.
 #[inline]
-pub fn texture_read(view: TextureView, level: TextureLevel, index: u32) -> TextureColor {
-    if level.is_float != 0 {
+pub fn texture_read_block(
+    view: TextureView,
+    level: TextureLevel,
+    x: u32,
+    row: u32,
+) -> TextureColor {
+    let at = level.first + block_word(x, row, level.width);
+    let first = view.texels[at as usize];
+    let second = view.texels[(at + 1) as usize];
+    let texel = block_texel(x, row);
+    let bits = view.texels[(at + 2 + (texel >> 3)) as usize];
+    let weights = block_weights(first, second, bits, texel);
+    TextureColor {
+        rgb: block_color(first, second, weights.x),
+        alpha: block_between(block_alpha(first), block_alpha(second), weights.y),
+    }
+}
+
+/// Texel `x` of a row, counted from the top, bytes as 0 to 255.
+#[inline]
+pub fn texture_read(view: TextureView, level: TextureLevel, x: u32, row: u32) -> TextureColor {
+    if TEXTURE_HAS_BLOCKS != 0 && level.form == TEXTURE_BLOCKS {
+        return texture_read_block(view, level, x, row);
+    }
+    let index = row * level.width + x;
+    if level.form == TEXTURE_FLOATS {
         let at = level.first + 4 * index;
         return TextureColor {
             rgb: vec3(
@@ -130,7 +165,7 @@ pub fn texture_add(
     }
     // Rows are stored from the top.
     let row = level.height - 1 - y as u32;
-    let texel = texture_read(view, level, row * level.width + x as u32);
+    let texel = texture_read(view, level, x as u32, row);
     TextureColor {
         rgb: sum.rgb + texel.rgb * weight,
         alpha: sum.alpha + texel.alpha * weight,
@@ -219,7 +254,7 @@ pub fn texture_filter(
     } else {
         sum = texture_bilinear(view, level, look.wrap, x, y);
     }
-    if level.is_float == 0 {
+    if level.form != TEXTURE_FLOATS {
         // Scaled to 1 once a sample, after the sum.
         sum.rgb *= 1.0 / 255.0;
         sum.alpha *= 1.0 / 255.0;

@@ -4,6 +4,7 @@
 //! `device::texture_view` read. [`FlatGeometry::sections`] names the arrays as translated device
 //! code asks for their words: the view's name, then the field's.
 
+mod blocks;
 mod geometry;
 mod layers;
 mod programs;
@@ -12,6 +13,7 @@ mod scene;
 mod tests;
 mod texture;
 
+pub use blocks::BLOCK_ERROR;
 pub use geometry::FlatGeometry;
 pub use programs::FlatPrograms;
 pub use scene::{FlatScene, NO_PROGRAM};

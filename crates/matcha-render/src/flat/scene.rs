@@ -1,6 +1,7 @@
 //! Everything of a prepared scene.
 
 use super::{FlatGeometry, FlatPrograms, FlatTextures, Section};
+use crate::backend::TextureMemory;
 use crate::closure::tables::closure_tables;
 use crate::device::camera::RasterCamera;
 use crate::device::geometry_view::GeometryView;
@@ -33,6 +34,15 @@ impl FlatScene {
     /// Lays a scene out; `materials` are the programs of its materials in their order. The
     /// world's program comes behind them, then those of lights.
     pub fn new(prepared: &Arc<Prepared>, materials: &Arc<Vec<Program>>) -> Self {
+        Self::with_textures(prepared, materials, false)
+    }
+
+    /// The same, with images of bytes packed in blocks if `packs` says so.
+    pub fn with_textures(
+        prepared: &Arc<Prepared>,
+        materials: &Arc<Vec<Program>>,
+        packs: bool,
+    ) -> Self {
         let mut all: Vec<&Program> = materials.iter().collect();
         let mut number = |program| {
             Option::map(program, |program| {
@@ -49,7 +59,7 @@ impl FlatScene {
         Self {
             filter: FilterTable::new(prepared.scene().settings.filter),
             geometry: FlatGeometry::new(prepared, all.iter().copied()),
-            textures: FlatTextures::new(prepared, looks),
+            textures: FlatTextures::new(prepared, looks, packs),
             programs: FlatPrograms::new(all.iter().copied()),
             materials: materials.clone(),
             prepared: prepared.clone(),
@@ -98,6 +108,11 @@ impl FlatScene {
     /// Images, for the machine that runs on the processor.
     pub fn images(&self) -> &TextureSet {
         &self.prepared.textures
+    }
+
+    /// What packed images save; nothing where none were to be packed.
+    pub fn texture_memory(&self) -> Option<TextureMemory> {
+        self.textures.memory()
     }
 
     /// Number of the world's program; where it has none, its radiance is

@@ -1,7 +1,11 @@
 //! Images.
 
-use super::{Section, sections};
-use crate::device::texture_view::{TextureImage, TextureLevel, TextureLook, TextureView};
+use super::{Section, blocks, sections};
+use crate::backend::TextureMemory;
+use crate::device::texture_view::{
+    TEXTURE_BLOCKS, TEXTURE_BYTES, TEXTURE_FLOATS, TextureImage, TextureLevel, TextureLook,
+    TextureView,
+};
 use crate::prepare::Prepared;
 use crate::texture::look::{alpha_code, filter_code, wrap_code};
 use crate::texture::{Level, Texels, TextureSet};
@@ -11,24 +15,45 @@ use std::collections::HashMap;
 /// No image, whatever their number.
 const MISSING: u32 = u32::MAX;
 
-/// What [`TextureView`] reads. Bytes stay bytes, one word a texel; floats are four words.
+/// What [`TextureView`] reads. Bytes stay bytes, one word a texel, or are packed in blocks where
+/// that is asked for; floats are four words.
 #[derive(Default)]
 pub struct FlatTextures {
     looks: Vec<TextureLook>,
     images: Vec<TextureImage>,
     levels: Vec<TextureLevel>,
     texels: Vec<u32>,
+    /// Bytes become blocks.
+    packs: bool,
+    /// Words that blocks are fewer than bytes would be.
+    saved_words: u64,
+    /// Levels of bytes in blocks, and those that stay as they are.
+    packed_levels: u32,
+    kept_levels: u32,
 }
 
 impl FlatTextures {
     /// The images of a prepared scene that look-ups refer to; look-ups are numbered as they come.
-    pub fn new<'t>(prepared: &Prepared, looks: impl IntoIterator<Item = &'t TextureRef>) -> Self {
-        Self::of_set(&prepared.textures, looks)
+    /// With `packs`, images of bytes are packed in blocks where the error is small
+    /// ([`BLOCK_ERROR`](super::BLOCK_ERROR)).
+    pub fn new<'t>(
+        prepared: &Prepared,
+        looks: impl IntoIterator<Item = &'t TextureRef>,
+        packs: bool,
+    ) -> Self {
+        Self::of_set(&prepared.textures, looks, packs)
     }
 
     /// Images that have been prepared alone.
-    pub fn of_set<'t>(set: &TextureSet, looks: impl IntoIterator<Item = &'t TextureRef>) -> Self {
-        let mut flat = Self::default();
+    pub fn of_set<'t>(
+        set: &TextureSet,
+        looks: impl IntoIterator<Item = &'t TextureRef>,
+        packs: bool,
+    ) -> Self {
+        let mut flat = Self {
+            packs,
+            ..Self::default()
+        };
         let mut known: HashMap<u32, u32> = HashMap::new();
         for look in looks {
             let image = *known.entry(look.image).or_insert_with(|| {
@@ -54,24 +79,50 @@ impl FlatTextures {
             flags,
         });
         for level in levels {
+            let first = self.texels.len() as u32;
+            let form = self.add_texels(level);
             self.levels.push(TextureLevel {
                 width: level.width,
                 height: level.height,
-                first: self.texels.len() as u32,
-                is_float: u32::from(!level.is_bytes()),
+                first,
+                form,
             });
-            match &level.texels {
-                Texels::Bytes(texels) => {
-                    let words = texels.iter().map(|texel| u32::from_le_bytes(*texel));
-                    self.texels.extend(words);
-                }
-                Texels::Floats(texels) => {
-                    let words = texels.iter().flatten().map(|value| value.to_bits());
-                    self.texels.extend(words);
-                }
-            }
         }
         image
+    }
+
+    /// Appends a level's texels and gives their form.
+    fn add_texels(&mut self, level: &Level) -> u32 {
+        let texels = match &level.texels {
+            Texels::Bytes(texels) => texels,
+            Texels::Floats(texels) => {
+                let words = texels.iter().flatten().map(|value| value.to_bits());
+                self.texels.extend(words);
+                return TEXTURE_FLOATS;
+            }
+        };
+        if self.packs {
+            if let Some(words) = blocks::pack(level.width, level.height, texels) {
+                self.saved_words += (texels.len() - words.len()) as u64;
+                self.packed_levels += 1;
+                self.texels.extend(words);
+                return TEXTURE_BLOCKS;
+            }
+            self.kept_levels += 1;
+        }
+        let words = texels.iter().map(|texel| u32::from_le_bytes(*texel));
+        self.texels.extend(words);
+        TEXTURE_BYTES
+    }
+
+    /// What blocks save; nothing where they were not asked for.
+    pub fn memory(&self) -> Option<TextureMemory> {
+        self.packs.then(|| TextureMemory {
+            bytes: 4 * self.texels.len() as u64,
+            bytes_saved: 4 * self.saved_words,
+            packed_levels: self.packed_levels,
+            kept_levels: self.kept_levels,
+        })
     }
 
     /// The view that device code reads.

@@ -71,6 +71,8 @@ fn gpu_options(options: &Options) -> Result<GpuOptions> {
         },
         sort_queues: None,
         gpu_from: options.gpu_from.map(first_stage),
+        ray_queries: options.ray_queries,
+        compress_textures: options.compress_textures,
         cache_folder: user_cache_folder().map(|folder| folder.join("kernels")),
     })
 }

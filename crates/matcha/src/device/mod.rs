@@ -4,7 +4,7 @@
 pub(crate) mod gpu;
 
 use crate::arguments::{self, Options};
-use anyhow::Result;
+use anyhow::{Result, bail};
 use gpu::Opened;
 use matcha_render::backend::{Backend, RenderError, RenderOptions};
 use matcha_render::cpu::CpuBackend;
@@ -25,11 +25,22 @@ impl Device {
     /// Finds and opens what the options ask for. What `auto` takes is said in the log.
     pub fn choose(options: &Options) -> Result<Device> {
         match &options.device {
+            arguments::Device::Cpu if options.ray_queries => bail!(
+                "--ray-queries is for GPUs: render without it, or choose another with --device"
+            ),
             arguments::Device::Cpu => Ok(Device::Cpu),
             arguments::Device::Auto => match gpu::open_real(options)? {
                 Ok(opened) => {
                     tracing::info!("rendering on {}", opened.name());
-                    Ok(Device::GpuOrCpu(opened))
+                    // With ray queries or not at all.
+                    Ok(if options.ray_queries {
+                        Device::Gpu(opened)
+                    } else {
+                        Device::GpuOrCpu(opened)
+                    })
+                }
+                Err(reason) if options.ray_queries => {
+                    bail!("--ray-queries is for GPUs, but --device auto takes the CPU: {reason}")
                 }
                 Err(reason) => {
                     tracing::info!("rendering on the CPU: {reason}");

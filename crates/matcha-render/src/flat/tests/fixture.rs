@@ -239,6 +239,26 @@ pub fn images() -> Vec<Image> {
     ]
 }
 
+/// The same images, those of bytes smooth: as blocks can have them.
+pub fn smooth_images() -> Vec<Image> {
+    let mut images = images();
+    for image in &mut images {
+        let width = image.width as usize;
+        if let Pixels::Rgba8(pixels) = &mut image.pixels {
+            for (k, pixel) in Arc::make_mut(pixels).iter_mut().enumerate() {
+                let along = k % width + k / width;
+                let alpha = if along.is_multiple_of(3) {
+                    0
+                } else {
+                    250 + along % 6
+                };
+                *pixel = [40 + 3 * along, 200 - 2 * along, 90 + along, alpha].map(|v| v as u8);
+            }
+        }
+    }
+    images
+}
+
 /// Look-ups of these images, and of one that is not there, in all ways.
 pub fn looks() -> Vec<TextureRef> {
     let mut looks = Vec::new();

@@ -31,6 +31,9 @@ fn adapter(report: &AdapterReport) -> String {
         report.invocations,
         range(report.subgroup)
     );
+    if report.ray_queries {
+        text += "    has ray queries: --ray-queries traces with them (experimental)\n";
+    }
     for (word, list) in [("lacks", &report.lacks), ("does without", &report.misses)] {
         for what in list {
             text += &format!("    {word}: {what}\n");
