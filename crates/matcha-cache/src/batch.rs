@@ -6,7 +6,7 @@
 //! 2. [`Table::look_up_prepared`] compares fingerprints, of every node that has its values
 //!    in these cells. [`Table::insert_prepared`] puts what was not found.
 
-use crate::device::key_hash::{NodeSeed, fingerprint_at, hash_shared_texel};
+use crate::device::key_hash::{NodeSeed, cell_of, fingerprint_at, hash_shared_texel};
 use crate::sync::Ordering;
 use crate::table::{Cell, EMPTY, fingerprint_of, value_of};
 use crate::{CacheCounts, Insertion, Table};
@@ -17,7 +17,7 @@ pub const MOST_SEEDS: usize = 16;
 /// The hashes of a batch's texels for nodes that share cells.
 #[derive(Clone, Debug, Default)]
 pub struct Keys {
-    /// Hash of the cell.
+    /// Number of the cell.
     cell: Vec<u32>,
     /// What fingerprints are made of.
     rest: Vec<u32>,
@@ -64,22 +64,24 @@ impl Found {
     }
 }
 
-/// The hash over rows of texels, compiled for what this CPU has.
-pub(crate) struct HashRows(fn(NodeSeed, [&[i32]; 3], &mut Keys));
+/// The hash over rows of texels, for a number of cells, compiled for what this CPU has.
+pub(crate) struct HashRows(HashOf);
+
+type HashOf = fn(NodeSeed, u32, [&[i32]; 3], &mut Keys);
 
 #[inline(always)]
-fn hash_lanes(node: NodeSeed, [level, i, j]: [&[i32]; 3], keys: &mut Keys) {
+fn hash_lanes(node: NodeSeed, cells: u32, [level, i, j]: [&[i32]; 3], keys: &mut Keys) {
     let n = level.len();
     let (i, j, rest) = (&i[..n], &j[..n], &mut keys.rest[..n]);
     for (k, cell) in keys.cell[..n].iter_mut().enumerate() {
         let hash = hash_shared_texel(node, level[k], i[k], j[k]);
-        *cell = hash.cell;
+        *cell = cell_of(hash.cell, cells);
         rest[k] = hash.rest;
     }
 }
 
-fn hash_portable(node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
-    hash_lanes(node, texels, keys);
+fn hash_portable(node: NodeSeed, cells: u32, texels: [&[i32]; 3], keys: &mut Keys) {
+    hash_lanes(node, cells, texels, keys);
 }
 
 #[cfg(all(target_arch = "x86_64", not(loom)))]
@@ -87,26 +89,26 @@ mod x86 {
     use super::*;
 
     #[target_feature(enable = "avx2")]
-    fn hash_avx2_lanes(node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
-        hash_lanes(node, texels, keys);
+    fn hash_avx2_lanes(node: NodeSeed, cells: u32, texels: [&[i32]; 3], keys: &mut Keys) {
+        hash_lanes(node, cells, texels, keys);
     }
 
     #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-    fn hash_avx512_lanes(node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
-        hash_lanes(node, texels, keys);
+    fn hash_avx512_lanes(node: NodeSeed, cells: u32, texels: [&[i32]; 3], keys: &mut Keys) {
+        hash_lanes(node, cells, texels, keys);
     }
 
-    pub(super) fn hash_avx2(node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
+    pub(super) fn hash_avx2(node: NodeSeed, cells: u32, texels: [&[i32]; 3], keys: &mut Keys) {
         // SAFETY: chosen only where `best` found AVX2.
-        unsafe { hash_avx2_lanes(node, texels, keys) }
+        unsafe { hash_avx2_lanes(node, cells, texels, keys) }
     }
 
-    pub(super) fn hash_avx512(node: NodeSeed, texels: [&[i32]; 3], keys: &mut Keys) {
+    pub(super) fn hash_avx512(node: NodeSeed, cells: u32, texels: [&[i32]; 3], keys: &mut Keys) {
         // SAFETY: chosen only where `best` found these parts of AVX-512.
-        unsafe { hash_avx512_lanes(node, texels, keys) }
+        unsafe { hash_avx512_lanes(node, cells, texels, keys) }
     }
 
-    pub(super) fn best() -> fn(NodeSeed, [&[i32]; 3], &mut Keys) {
+    pub(super) fn best() -> HashOf {
         if is_x86_feature_detected!("avx512dq") && is_x86_feature_detected!("avx512vl") {
             hash_avx512
         } else if is_x86_feature_detected!("avx2") {
@@ -147,9 +149,9 @@ impl Table {
         let n = texels[0].len();
         keys.cell.resize(n, 0);
         keys.rest.resize(n, 0);
-        (self.hash_rows.0)(node, texels, keys);
-        for &cell in &keys.cell {
-            prefetch(self.cell(cell));
+        (self.hash_rows.0)(node, self.size().cells as u32, texels, keys);
+        for &number in &keys.cell {
+            prefetch(self.cell(number));
         }
     }
 

@@ -133,11 +133,11 @@ impl Table {
         hash_texel(node, level, i, j)
     }
 
-    /// The entries of the cell that a hash names.
+    /// The entries of a cell.
     #[inline(always)]
-    pub(crate) fn cell(&self, hash: u32) -> Cell<'_> {
+    pub(crate) fn cell(&self, number: u32) -> Cell<'_> {
         let TableSize { cells, entries } = self.size;
-        let number = cell_of(hash, cells as u32) as usize;
+        let number = number as usize;
         let head = HEAD.min(entries as usize);
         let tail = entries as usize - head;
         let (heads, tails) = self.storage.words().split_at(cells as usize * head);
@@ -147,12 +147,16 @@ impl Table {
         }
     }
 
+    fn cell_named(&self, hash: KeyHash) -> Cell<'_> {
+        self.cell(cell_of(hash.cell, self.size.cells as u32))
+    }
+
     fn find(&self, hash: KeyHash) -> Option<u32> {
-        self.cell(hash.cell).find(hash.fingerprint)
+        self.cell_named(hash).find(hash.fingerprint)
     }
 
     fn put(&self, hash: KeyHash, value: u32) -> Insertion {
-        self.cell(hash.cell).put(hash.fingerprint, value)
+        self.cell_named(hash).put(hash.fingerprint, value)
     }
 }
 

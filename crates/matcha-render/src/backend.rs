@@ -4,6 +4,7 @@ use crate::accel::AccelError;
 use crate::film::Film;
 use matcha_cache::CacheError;
 use matcha_shade::nodes::LowerError;
+use matcha_shade::vm::Isa;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -26,6 +27,29 @@ pub enum CacheMode {
     },
 }
 
+/// How the threads of a processor go about their work. No picture depends on it but for the
+/// order in which a pixel's samples are added, which is that of the batch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CpuSchedule {
+    /// Paths in flight on one thread, at least 1.
+    pub batch_paths: usize,
+    /// Most hits that node networks are evaluated for at once, at least 1.
+    pub group_hits: usize,
+    /// Instructions that networks run in, where the processor has them.
+    pub isa: Isa,
+}
+
+impl Default for CpuSchedule {
+    /// What was fastest: `docs/adr/0005-batches-and-shadows.md`.
+    fn default() -> Self {
+        Self {
+            batch_paths: 2048,
+            group_hits: 512,
+            isa: Isa::best(),
+        }
+    }
+}
+
 /// Settings of one rendering that are not the scene's.
 #[derive(Clone, Debug)]
 pub struct RenderOptions {
@@ -37,6 +61,8 @@ pub struct RenderOptions {
     pub seed: Option<u32>,
     /// The material cache.
     pub cache: CacheMode,
+    /// For processors; graphics devices have no use for it.
+    pub schedule: CpuSchedule,
 }
 
 impl Default for RenderOptions {
@@ -46,6 +72,7 @@ impl Default for RenderOptions {
             threads: None,
             seed: None,
             cache: CacheMode::Off,
+            schedule: CpuSchedule::default(),
         }
     }
 }
@@ -127,6 +154,8 @@ pub struct CacheStatistics {
     pub refused: u64,
     /// Values not stored because another thread stored in the same entry first.
     pub races_lost: u64,
+    /// Values not stored because their encoding cannot hold them (a processor's only).
+    pub unencodable: u64,
     /// Entries in use.
     pub occupied: u64,
     /// Entries in all.

@@ -9,7 +9,9 @@ use crate::integrator::{Frame, FrameCache};
 use crate::node_cache::CacheLayout;
 use crate::prepare::Prepared;
 use matcha_cache::{CacheCounts, Table, TableSize, available_memory, fitting_size};
+use matcha_shade::compile::CostModel;
 use matcha_shade::program::Program;
+use matcha_shade::vm::Isa;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -47,8 +49,7 @@ impl CpuBackend {
             .num_threads(options.threads.unwrap_or(0))
             .build()
             .map_err(|error| RenderError::Threads(error.to_string()))?;
-        let cached = options.cache != CacheMode::Off;
-        let programs = prepared.programs(cached)?;
+        let programs = programs(&prepared, options)?;
         let [width, height] = prepared.resolution();
         let settings = &prepared.scene().settings;
         let cache = make_cache(&options.cache, &programs)?;
@@ -61,7 +62,7 @@ impl CpuBackend {
             programs,
             cache,
             workers: (0..pool.current_num_threads())
-                .map(|_| Mutex::default())
+                .map(|_| Mutex::new(Worker::new(&options.schedule)))
                 .collect(),
             pool,
             tiles: Tile::cover(width, height),
@@ -88,11 +89,25 @@ impl CpuBackend {
             inserts: counts.inserts,
             refused: counts.refused,
             races_lost: counts.lost,
+            unencodable: counts.unencodable,
             occupied: counts.inserts,
             capacity: table.size().capacity(),
             bytes: table.size().bytes(),
         }
     }
+}
+
+/// The programs of the materials, for the instructions that they will run in.
+fn programs(
+    prepared: &Prepared,
+    options: &RenderOptions,
+) -> Result<Arc<Vec<Program>>, RenderError> {
+    let cached = options.cache != CacheMode::Off;
+    let isa = options.schedule.isa;
+    if cached && isa != Isa::best() {
+        return prepared.cached_programs_for(CostModel::of(isa));
+    }
+    prepared.programs(cached)
 }
 
 /// The table that a mode asks for. A size that nobody asked for shrinks until it fits.

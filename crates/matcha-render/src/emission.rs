@@ -28,7 +28,7 @@ pub fn of_materials(prepared: &Prepared) -> Vec<Option<MaterialEmission>> {
         cache: None,
         seed: 0,
     };
-    let mut networks = Networks::new();
+    let mut networks = Networks::default();
     let shining: Vec<bool> = programs.iter().map(|p| p.has_emission()).collect();
     let probes = probes(prepared, &shining);
     probes
@@ -173,7 +173,7 @@ fn bake(prepared: &Prepared, asked: u32) -> WorldGrid {
         cache: None,
         seed: 0,
     };
-    let mut networks = Networks::new();
+    let mut networks = Networks::default();
     let mut radiance = Vec::with_capacity(width as usize * height as usize);
     for y in 0..height {
         let directions =

@@ -12,7 +12,7 @@ use crate::surface::{SurfaceTables, View};
 use crate::texture::TextureSet;
 use glam::Vec3;
 use matcha_shade::closure::ClosureKind;
-use matcha_shade::compile::{Options, compile};
+use matcha_shade::compile::{CostModel, Options, compile};
 use matcha_shade::material::{LowerReport, MaterialGraph, MaterialKind};
 use matcha_shade::nodes::{Names, lower, lower_gltf};
 use matcha_shade::program::Program;
@@ -59,7 +59,7 @@ impl Prepared {
             world,
             lights,
         } = lower_scene(&mut scene)?;
-        let programs = compile_all(&graphs, false)?;
+        let programs = compile_without_cache(&graphs)?;
         let camera = camera::prepare(&scene.camera, resolution, scene.settings.pixel_aspect);
         let view = View::new(camera, resolution);
         let all = || {
@@ -134,8 +134,20 @@ impl Prepared {
         if let Some(programs) = self.cached_programs.get() {
             return Ok(programs.clone());
         }
-        let programs = Arc::new(compile_all(&self.graphs, true)?);
+        let programs = self.cached_programs_for(CostModel::default())?;
         Ok(self.cached_programs.get_or_init(|| programs).clone())
+    }
+
+    /// Programs with look-ups of what is worth one by other costs than this processor's.
+    ///
+    /// # Errors
+    /// If a network is larger than a program can be.
+    pub fn cached_programs_for(&self, cost: CostModel) -> Result<Arc<Vec<Program>>, RenderError> {
+        let options = Options {
+            cost,
+            ..Options::default()
+        };
+        compile_all(&self.graphs, &options).map(Arc::new)
     }
 
     /// The world's program, or its radiance where it is the same everywhere.
@@ -264,15 +276,19 @@ fn note(reports: &mut Vec<(String, LowerReport)>, name: &str, report: LowerRepor
     }
 }
 
-fn compile_all(graphs: &[MaterialGraph], cache: bool) -> Result<Vec<Program>, RenderError> {
+fn compile_without_cache(graphs: &[MaterialGraph]) -> Result<Vec<Program>, RenderError> {
     let options = Options {
-        cache,
+        cache: false,
         ..Options::default()
     };
+    compile_all(graphs, &options)
+}
+
+fn compile_all(graphs: &[MaterialGraph], options: &Options) -> Result<Vec<Program>, RenderError> {
     graphs
         .par_iter()
         .map(|graph| {
-            compile(graph, &options)
+            compile(graph, options)
                 .map(|compiled| compiled.program)
                 .map_err(|error| {
                     RenderError::Scene(format!("material \"{}\": {error}", graph.name))
@@ -291,7 +307,7 @@ fn lower_emitter(
 ) -> Result<Result<Program, Vec3>, RenderError> {
     let (graph, report) = lower(&scene.trees, tree, names(scene), name, kind)?;
     note(reports, name, report);
-    let program = compile_all(std::slice::from_ref(&graph), false)?.remove(0);
+    let program = compile_without_cache(std::slice::from_ref(&graph))?.remove(0);
     Ok(match constant_radiance(&program) {
         Some(radiance) => Err(radiance),
         None => Ok(program),

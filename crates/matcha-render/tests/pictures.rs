@@ -3,10 +3,11 @@
 mod scenes;
 
 use glam::{Affine3A, Vec3};
-use matcha_render::backend::{Backend, CacheMode, Control, RenderOptions};
+use matcha_render::backend::{Backend, CacheMode, Control, CpuSchedule, RenderOptions};
 use matcha_render::cpu::CpuBackend;
 use matcha_render::prepare::Prepared;
 use matcha_render::scene::{Light, LightShape, Scene, Visibility};
+use matcha_shade::vm::Isa;
 use scenes::*;
 use std::sync::Arc;
 
@@ -146,36 +147,89 @@ fn threads_do_not_change_a_picture() {
     );
 }
 
+/// Two materials whose networks are worth caching, on three squares.
+fn cellular() -> Scene {
+    let mut scene = empty(2.0);
+    scene.world.color = Vec3::new(0.2, 0.3, 0.5);
+    let floor = add_material(&mut scene, cells(9.7));
+    let wall = add_material(&mut scene, cells(31.0));
+    add_square(&mut scene, Vec3::ZERO, 5.0, false, floor);
+    add_square(&mut scene, Vec3::new(0.2, 0.1, 0.5), 0.3, false, wall);
+    add_square(&mut scene, Vec3::new(0.0, 0.0, 3.0), 1.0, true, wall);
+    scene.settings.samples = 8;
+    scene.settings.resolution = [100, 70];
+    scene
+}
+
+/// A table of so many cells.
+fn table_of(cells: u64) -> CacheMode {
+    CacheMode::Paper {
+        cells: Some(cells),
+        entries: None,
+        level_offset: 0.0,
+    }
+}
+
+/// Groups and lanes change nothing. The batch changes the order in which the eight samples of
+/// a pixel are added, and nothing else.
+#[test]
+fn the_schedule_does_not_change_a_picture() {
+    let with = |cache: CacheMode, schedule| {
+        let options = RenderOptions {
+            cache,
+            schedule,
+            ..RenderOptions::default()
+        };
+        render(cellular(), &options)
+    };
+    let usual = CpuSchedule::default();
+    let grouped = |group_hits| CpuSchedule {
+        group_hits,
+        ..usual
+    };
+    for cache in [CacheMode::Off, table_of(100_000)] {
+        let expected = with(cache, usual);
+        for hits in [1, 17, 4096] {
+            assert!(with(cache, grouped(hits)) == expected, "{cache:?}, {hits}");
+        }
+    }
+    let expected = with(CacheMode::Off, usual);
+    for isa in Isa::available() {
+        let got = with(CacheMode::Off, CpuSchedule { isa, ..usual });
+        assert!(got == expected, "{isa:?}");
+    }
+    for batch_paths in [1, 100, 8192] {
+        let schedule = CpuSchedule {
+            batch_paths,
+            ..usual
+        };
+        let got = with(CacheMode::Off, schedule);
+        for (a, b) in got.as_flattened().iter().zip(expected.as_flattened()) {
+            assert!((a - b).abs() <= 1e-6 * b.abs(), "{batch_paths}: {a} {b}");
+        }
+    }
+}
+
 /// What is stored is a function of the key, and what is evaluated is what would be found: it
 /// does not matter which thread comes first.
 #[test]
 fn threads_do_not_change_a_cached_picture() {
-    let scene = || {
-        let mut scene = empty(2.0);
-        scene.world.color = Vec3::new(0.2, 0.3, 0.5);
-        let floor = add_material(&mut scene, cells(9.7));
-        let wall = add_material(&mut scene, cells(31.0));
-        add_square(&mut scene, Vec3::ZERO, 5.0, false, floor);
-        add_square(&mut scene, Vec3::new(0.2, 0.1, 0.5), 0.3, false, wall);
-        add_square(&mut scene, Vec3::new(0.0, 0.0, 3.0), 1.0, true, wall);
-        scene.settings.samples = 8;
-        scene.settings.resolution = [100, 70];
-        scene
-    };
     let with = |threads, cells| RenderOptions {
         threads: Some(threads),
-        cache: CacheMode::Paper {
-            cells: Some(cells),
-            entries: None,
-            level_offset: 0.0,
-        },
+        cache: table_of(cells),
         ..RenderOptions::default()
     };
-    let one = render(scene(), &with(1, 100_000));
-    let off = render(scene(), &RenderOptions::default());
+    let one = render(cellular(), &with(1, 100_000));
+    let off = render(cellular(), &RenderOptions::default());
     assert!(one != off, "nothing was cached");
-    assert!(one == render(scene(), &with(3, 100_000)), "threads matter");
-    assert!(one == render(scene(), &with(2, 7)), "a full table matters");
+    assert!(
+        one == render(cellular(), &with(3, 100_000)),
+        "threads matter"
+    );
+    assert!(
+        one == render(cellular(), &with(2, 7)),
+        "a full table matters"
+    );
 }
 
 /// Constant networks have nothing to cache: the cache changes nothing at all.

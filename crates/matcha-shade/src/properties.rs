@@ -7,7 +7,7 @@ mod support;
 
 use crate::closure::{ClosureKind, Ty};
 use crate::compile::{CostModel, Options, compile};
-use crate::device::texel::{texel_centre, texel_index, texel_level, texel_size};
+use crate::device::texel::{texel_centre, texel_footprint, texel_index, texel_level};
 use crate::graph::{AlphaHandling, Interpolation, NodeId, Span, Table, TextureRef, type_of_width};
 use crate::input::{Input, InputKind, Part};
 use crate::material::{ClosureId, MaterialGraph};
@@ -70,7 +70,7 @@ impl Points {
             let level = texel_level(at(Part::AxisA), at(Part::AxisB), 1.0);
             let uv = at(Part::Value);
             let centre = texel_centre(texel_index(uv.x, level), texel_index(uv.y, level), level);
-            let size = texel_size(level);
+            let size = texel_footprint(level);
             let mut set = |part, x: [f32; 2]| {
                 let value = self
                     .0
@@ -314,6 +314,7 @@ fn check(material: &MaterialGraph, points: &Points, how: Optimise) -> Result<(),
                 cache: false,
                 optimise: Optimise::Nothing,
                 cost: paper,
+                finer_gradients: 0,
             },
         ),
         (
@@ -322,6 +323,7 @@ fn check(material: &MaterialGraph, points: &Points, how: Optimise) -> Result<(),
                 cache: false,
                 optimise: how,
                 cost: paper,
+                finer_gradients: 0,
             },
         ),
         (
@@ -330,6 +332,7 @@ fn check(material: &MaterialGraph, points: &Points, how: Optimise) -> Result<(),
                 cache: true,
                 optimise: how,
                 cost: paper,
+                finer_gradients: 0,
             },
         ),
         (
@@ -337,6 +340,7 @@ fn check(material: &MaterialGraph, points: &Points, how: Optimise) -> Result<(),
             Options {
                 cache: true,
                 optimise: how,
+                finer_gradients: 0,
                 ..Options::default()
             },
         ),

@@ -5,9 +5,10 @@ mod support;
 use matcha_shade::closure::ClosureKind;
 use matcha_shade::compile::{Compiled, CostModel, Options, compile};
 use matcha_shade::graph::{Graph, NodeId, Span};
-use matcha_shade::input::InputKind;
+use matcha_shade::input::{InputKind, Part};
 use matcha_shade::material::MaterialGraph;
 use matcha_shade::ops::OpCode;
+use matcha_shade::program::Program;
 use matcha_shade::vm::{Isa, Machine, NodeCache, Rows};
 use support::{ExactCache, Random, at_texel_centres, inputs, run_at};
 
@@ -203,21 +204,38 @@ fn counts_tell_hits_from_misses() {
     assert_eq!((second.look_ups, second.found), (N as u64, N as u64));
 }
 
+/// Levels of the texels that a program's values are stored at: coarsest and finest.
+fn levels(program: &Program, offset: f32) -> [i32; 2] {
+    let rows = inputs(program, N, &mut Random(1));
+    let mut cache = ExactCache::default();
+    let machine = &mut Machine::new(None);
+    run_at(machine, program, N, &rows, Some(&mut cache), offset);
+    let levels = cache.values.keys().map(|(_, texel)| texel.level);
+    let (least, most) = (levels.clone().min(), levels.max());
+    [least, most].map(|level| level.expect("something is stored"))
+}
+
 #[test]
 fn a_level_offset_makes_texels_finer() {
-    let m = material(|g| vec![pattern(g, 2.0)]);
-    let c = compiled(&m, true);
-    let rows = inputs(&c.program, N, &mut Random(1));
-    let levels = |offset| {
-        let mut cache = ExactCache::default();
-        let machine = &mut Machine::new(None);
-        run_at(machine, &c.program, N, &rows, Some(&mut cache), offset);
-        let mut levels: Vec<i32> = cache.values.keys().map(|(_, t)| t.level).collect();
-        levels.sort();
-        levels
-    };
-    let plain = levels(0.0);
-    let finer = levels(3.0);
-    assert_eq!(finer[0], plain[0] + 3);
-    assert_eq!(finer.last(), plain.last().map(|l| l + 3).as_ref());
+    let program = compiled(&material(|g| vec![pattern(g, 2.0)]), true).program;
+    let finer = levels(&program, 0.0).map(|level| level + 3);
+    assert_eq!(levels(&program, 3.0), finer);
+}
+
+#[test]
+fn gradients_are_kept_in_finer_texels() {
+    let m = material(|g| {
+        let pattern = pattern(g, 2.0);
+        let height = g.component(pattern, 1);
+        let change = g.combine(&[height, height]);
+        let [a, b] = [Part::AxisA, Part::AxisB].map(|axis| g.input(InputKind::Uv(0), axis));
+        let gradient = g.apply(OpCode::uv_gradient, &[change, a, b]);
+        let (slope, position) = (g.component(gradient, 0), g.value(InputKind::Position));
+        vec![g.apply(OpCode::vector_scale, &[position, slope])]
+    });
+    let plain = compiled(&material(|g| vec![pattern(g, 2.0)]), true).program;
+    let finer: i32 = Options::default().finer_gradients.into();
+    assert!(finer > 0);
+    let expected = levels(&plain, 0.0).map(|level| level + finer);
+    assert_eq!(levels(&compiled(&m, true).program, 0.0), expected);
 }

@@ -1,7 +1,8 @@
 //! The command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use matcha_render::backend::{CacheMode, RenderOptions};
+use matcha_render::backend::{CacheMode, CpuSchedule, RenderOptions};
+use matcha_shade::vm::Isa;
 use std::path::PathBuf;
 
 /// A path tracer that keeps what material networks compute.
@@ -130,9 +131,36 @@ pub(crate) struct Options {
     /// error is small (at most 4 of 255 in the mean)
     #[arg(long)]
     pub compress_textures: bool,
+    #[command(flatten)]
+    pub schedule: Schedule,
     /// Write full statistics
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
+}
+
+/// For measurements of the CPU renderer; not in the help.
+#[derive(Debug, Args)]
+pub(crate) struct Schedule {
+    /// Paths in flight on one thread
+    #[arg(long, value_name = "N", value_parser = positive, hide = true)]
+    pub batch_paths: Option<usize>,
+    /// Most hits that networks are evaluated for at once
+    #[arg(long, value_name = "N", value_parser = positive, hide = true)]
+    pub group_hits: Option<usize>,
+    /// Instructions that networks run in; scalar is one hit at a time
+    #[arg(long, value_name = "scalar|sse2|avx2|avx512", value_parser = lanes, hide = true)]
+    pub lanes: Option<Isa>,
+}
+
+impl Schedule {
+    fn cpu_schedule(&self) -> CpuSchedule {
+        let default = CpuSchedule::default();
+        CpuSchedule {
+            batch_paths: self.batch_paths.unwrap_or(default.batch_paths),
+            group_hits: self.group_hits.unwrap_or(default.group_hits),
+            isa: self.lanes.unwrap_or(default.isa),
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -203,6 +231,7 @@ impl Options {
             threads: self.threads,
             seed: self.seed,
             cache,
+            schedule: self.schedule.cpu_schedule(),
         }
     }
 }
@@ -229,6 +258,28 @@ fn threads(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
         Ok(n @ 1..=4096) => Ok(n),
         _ => Err("threads are a number from 1 to 4096".into()),
+    }
+}
+
+fn positive(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(n @ 1..=16_777_216) => Ok(n),
+        _ => Err("this is a number from 1 to 16777216".into()),
+    }
+}
+
+fn lanes(text: &str) -> Result<Isa, String> {
+    let isa = match text {
+        "scalar" => Isa::Scalar,
+        "sse2" => Isa::Baseline,
+        "avx2" => Isa::Avx2,
+        "avx512" => Isa::Avx512,
+        _ => return Err("lanes are scalar, sse2, avx2 or avx512".into()),
+    };
+    if Isa::available().contains(&isa) {
+        Ok(isa)
+    } else {
+        Err("this processor does not have these instructions".into())
     }
 }
 

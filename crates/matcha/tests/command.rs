@@ -32,7 +32,7 @@ fn assert_refused(arguments: &[&str], part: &str) {
 
 #[test]
 fn arguments_that_make_no_sense_are_refused_in_a_sentence() {
-    let cases: [(&[&str], &str); 15] = [
+    let cases: [(&[&str], &str); 17] = [
         (&[], "no command was given"),
         (&["render", "a.glb"], "--output"),
         (&["render", "a.glb", "-o", "a.jpg"], ".exr or .png"),
@@ -75,6 +75,14 @@ fn arguments_that_make_no_sense_are_refused_in_a_sentence() {
         (
             &["render", "a.glb", "-o", "a.png", "--gpu-from", "teapot"],
             "teapot",
+        ),
+        (
+            &["render", "a.glb", "-o", "a.png", "--batch-paths", "0"],
+            "from 1",
+        ),
+        (
+            &["render", "a.glb", "-o", "a.png", "--lanes", "mmx"],
+            "scalar, sse2",
         ),
         (&["inspect", "a.glb", "--dot"], "--material"),
         (&["bake", "a.glb"], "bake"),

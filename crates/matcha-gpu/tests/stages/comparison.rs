@@ -10,9 +10,6 @@ use std::collections::{BTreeMap, BTreeSet};
 /// surface's point is known to a few units in the last place of its coordinates.
 pub const ABSOLUTE: f32 = 2e-5;
 pub const RELATIVE: f32 = 2e-4;
-/// Of the weights of a triangle's corners: small triangles are seen from far, where the processor
-/// takes four at once in another order.
-const WEIGHTS: f32 = 2e-3;
 
 /// Rows of a slot's outputs and of its cached values.
 const FLOAT_ROWS: [&str; 2] = ["output_rows", "cached_rows"];
@@ -25,7 +22,6 @@ const SCRATCH: [&str; 5] = [
     "sort_starts",
 ];
 
-const WEIGHT_FIELDS: [&str; 2] = ["hits.u", "hits.v"];
 /// What the cache had: its table has no twin, in which nothing is found.
 const NODES_FOUND: &str = "paths.nodes_found";
 
@@ -112,23 +108,18 @@ fn compare_rows(
         if name == NODES_FOUND && looked_up {
             continue;
         }
-        if !word.float || !agree(&name, values) {
+        if !word.float || !agree(values) {
             difference.note(slot, name, values);
         }
     }
 }
 
 /// Whether floats are the same up to the stated error. What is no number is the same as another.
-fn agree(name: &str, [a, b]: [f32; 2]) -> bool {
+fn agree([a, b]: [f32; 2]) -> bool {
     if !(a.is_finite() && b.is_finite()) {
         return a == b || (a.is_nan() && b.is_nan());
     }
-    let absolute = if WEIGHT_FIELDS.contains(&name) {
-        WEIGHTS
-    } else {
-        ABSOLUTE
-    };
-    (a - b).abs() <= absolute.max(RELATIVE * a.abs().max(b.abs()))
+    (a - b).abs() <= ABSOLUTE.max(RELATIVE * a.abs().max(b.abs()))
 }
 
 /// The misses of a queue that is not empty: slot, program, region and texel of each, in any order.

@@ -58,7 +58,7 @@ impl Worker {
         }
         waiting.sort_unstable_by_key(|&(material, _, i)| (material, i));
         for same in waiting.chunk_by(|a, b| a.0 == b.0) {
-            for group in same.chunks(super::shade::GROUP) {
+            for group in same.chunks(self.group_hits) {
                 let points = group
                     .iter()
                     .map(|&(_, hit, i)| (hit, tasks[i].shadow.direction));
@@ -101,7 +101,7 @@ impl Worker {
         let mut order: Vec<usize> = (0..layer.len()).collect();
         order.sort_unstable_by_key(|&k| (layer[k].material, k));
         for same in order.chunk_by(|&a, &b| layer[a].material == layer[b].material) {
-            for group in same.chunks(super::shade::GROUP) {
+            for group in same.chunks(self.group_hits) {
                 let material = layer[group[0]].material;
                 let points = group
                     .iter()

@@ -1,6 +1,6 @@
 //! The path tracer: stages over a batch of paths.
 //!
-//! A thread drives [`worker::BATCH`] paths through the same stages that a GPU runs as
+//! A thread drives a batch of paths (2,048)  through the same stages that a GPU runs as
 //! kernels: generate, traverse, shade (footprint, look-up, evaluation, closures, light
 //! samples), shadows, [film](crate::film).
 //! Finished paths are replaced at once, so that the batch stays full.

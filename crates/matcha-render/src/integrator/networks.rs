@@ -15,7 +15,7 @@ use matcha_cache::{CacheCounts, Found};
 use matcha_shade::closure::ClosureKind;
 use matcha_shade::program::{ClosureOutput, Program};
 use matcha_shade::rows::Rows;
-use matcha_shade::vm::{Machine, NodeCache, Texels};
+use matcha_shade::vm::{Isa, Machine, NodeCache, Texels};
 use std::time::{Duration, Instant};
 
 /// Rows of the largest closure, with room.
@@ -72,10 +72,11 @@ impl Group {
 }
 
 impl Networks {
-    /// Empty buffers and the best machine that the processor runs.
-    pub fn new() -> Self {
+    /// Empty buffers and a machine for some instructions, or the best where the processor
+    /// lacks them.
+    pub fn new(isa: Isa) -> Self {
         Self {
-            machine: Machine::new(None),
+            machine: Machine::new(Some(isa)),
             group: Group::default(),
             announced: Group::default(),
             outputs: Rows::default(),
@@ -311,7 +312,7 @@ impl Networks {
 
 impl Default for Networks {
     fn default() -> Self {
-        Self::new()
+        Self::new(Isa::best())
     }
 }
 

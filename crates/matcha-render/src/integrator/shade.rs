@@ -9,17 +9,15 @@ use crate::device::light_sample::LIGHT_EMITS_NOTHING;
 use crate::device::path_shade::{path_closure_context, path_no_task, path_shade};
 use crate::surface::SurfacePoint;
 
-/// Hits shaded at a time: their rows stay in the second-level cache.
-pub const GROUP: usize = 512;
-
 impl Worker {
     /// Shades every hit of the batch, program by program.
     pub(super) fn shade_surfaces(&mut self, frame: &Frame) {
         let mut tasks = std::mem::take(&mut self.surface_tasks);
         tasks.sort_unstable_by_key(|task| (task.material, task.path));
+        let most = self.group_hits;
         let mut groups = tasks
             .chunk_by(|a, b| a.material == b.material)
-            .flat_map(|same| same.chunks(GROUP))
+            .flat_map(|same| same.chunks(most))
             .peekable();
         if let Some(first) = groups.peek() {
             self.networks.announce_surfaces(frame, first, &self.paths);

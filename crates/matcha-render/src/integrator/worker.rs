@@ -4,6 +4,7 @@ use super::Frame;
 use super::networks::Networks;
 use super::path::Path;
 use crate::accel::Hit;
+use crate::backend::CpuSchedule;
 use crate::closure::LobeSet;
 use crate::device::light_view::LIGHT_NONE;
 use crate::device::path_meet::{
@@ -17,10 +18,6 @@ use glam::Vec3;
 use matcha_cache::CacheCounts;
 use std::ops::Range;
 use std::time::Duration;
-
-/// Paths in flight on one thread: their state (about half a megabyte) stays in the
-/// second-level cache.
-pub const BATCH: usize = 2048;
 
 /// A path at a surface.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +50,8 @@ pub struct Counts {
 
 /// A thread's state, kept from tile to tile.
 pub struct Worker {
+    batch_paths: usize,
+    pub(super) group_hits: usize,
     pub(super) paths: Vec<Path>,
     active: Vec<u32>,
     free: Vec<u32>,
@@ -67,16 +66,19 @@ pub struct Worker {
 
 impl Worker {
     /// An empty batch.
-    pub fn new() -> Self {
+    pub fn new(schedule: &CpuSchedule) -> Self {
+        let batch_paths = schedule.batch_paths.max(1);
         Self {
-            paths: Vec::with_capacity(BATCH),
-            active: Vec::with_capacity(BATCH),
-            free: Vec::with_capacity(BATCH),
+            batch_paths,
+            group_hits: schedule.group_hits.max(1),
+            paths: Vec::with_capacity(batch_paths),
+            active: Vec::with_capacity(batch_paths),
+            free: Vec::with_capacity(batch_paths),
             finished: Vec::new(),
             surface_tasks: Vec::new(),
             light_tasks: Vec::new(),
             escaped: Vec::new(),
-            networks: Networks::new(),
+            networks: Networks::new(schedule.isa),
             lobes: LobeSet::default(),
             counts: Counts::default(),
         }
@@ -136,7 +138,7 @@ impl Worker {
         total: u64,
     ) -> u64 {
         let pixels = u64::from(tile.pixels());
-        while self.active.len() < BATCH && next < total {
+        while self.active.len() < self.batch_paths && next < total {
             let sample = range.start + (next / pixels) as u32;
             let path = frame.start_path(tile, (next % pixels) as u32, sample);
             let slot = self.free.pop().unwrap_or_else(|| {
@@ -202,12 +204,6 @@ impl Worker {
             self.free.extend_from_slice(finished);
         }
         self.finished.clear();
-    }
-}
-
-impl Default for Worker {
-    fn default() -> Self {
-        Self::new()
     }
 }
 

@@ -22,10 +22,24 @@ pub fn texel_level(a: Vec2, b: Vec2, scale_squared: f32) -> i32 {
     -((exponent >> 1) + rounds_up as i32)
 }
 
+/// A level so many levels finer than one of [`texel_level`]; at most 30.
+#[inline(always)]
+pub fn texel_finer(level: i32, finer: i32) -> i32 {
+    let there = level + finer;
+    if there > 30 { 30 } else { there }
+}
+
 /// A texel's edge, 2^−level, for levels of [`texel_level`].
 #[inline(always)]
 pub fn texel_size(level: i32) -> f32 {
     float_of(((127 - level) << 23) as u32)
+}
+
+/// The length of a footprint's axes that texels of a level of [`texel_level`] stand for: of
+/// those that ask for it, from half an edge to an edge and evenly so in octaves, the middle.
+#[inline(always)]
+pub fn texel_footprint(level: i32) -> f32 {
+    texel_size(level) * 0.707_106_77
 }
 
 /// Index along one direction: floor(x · 2^level), within ±2^30.

@@ -59,9 +59,10 @@ impl Program {
                 });
                 let values: Vec<String> = values.collect();
                 format!(
-                    "{} = lookup uv{} else {dst}; found: {}",
+                    "{} = lookup uv{}{} else {dst}; found: {}",
                     values.join(", "),
-                    region.uv_set,
+                    region.grid.uv_set,
+                    "+".repeat(region.grid.finer.into()),
                     region.words.end
                 )
             }

@@ -146,7 +146,7 @@ pub fn inputs(program: &Program, n: usize, random: &mut Random) -> Rows {
 }
 
 /// The same inputs with every coordinate of the set moved to its virtual texel's centre
-/// and the footprint to the texel's edges: where a region evaluates.
+/// and the footprint to the one that it stands for: where a region evaluates.
 pub fn at_texel_centres(program: &Program, n: usize, inputs: &Rows, set: u16) -> Rows {
     let mut moved = inputs.clone();
     let row = |part| {
@@ -164,8 +164,9 @@ pub fn at_texel_centres(program: &Program, n: usize, inputs: &Rows, set: u16) ->
         for i in 0..2 {
             let texel = (inputs.get(uv + i, k) as f64 / size).floor();
             moved.set(uv + i, k, ((texel + 0.5) * size) as f32);
-            moved.set(a + i, k, if i == 0 { size as f32 } else { 0.0 });
-            moved.set(b + i, k, if i == 1 { size as f32 } else { 0.0 });
+            let axis = (size * std::f64::consts::FRAC_1_SQRT_2) as f32;
+            moved.set(a + i, k, if i == 0 { axis } else { 0.0 });
+            moved.set(b + i, k, if i == 1 { axis } else { 0.0 });
         }
     }
     moved
