@@ -189,6 +189,11 @@ impl Library {
         found.ok_or_else(|| LinkError::NoSection(name.to_owned()))
     }
 
+    /// The declarations of all sections, by their names.
+    pub fn sections(&self) -> impl Iterator<Item = &Declaration> {
+        self.sections.values()
+    }
+
     /// A kernel with everything that it needs.
     ///
     /// # Errors

@@ -38,14 +38,8 @@ fn world_radiance(slot: u32) -> vec3f {
     return program_radiance(program, slot);
 }
 
-// Makes the lobes of a point from the slot's outputs.
-fn build_lobes(
-    program: u32,
-    slot: u32,
-    point: ptr<function, SurfacePoint>,
-    context: ClosureContext,
-    lobes: ptr<function, LobeSet>,
-) {
+// A point as its closures see it, with the shading normal that they bend.
+fn point_frame(program: u32, slot: u32, point: ptr<function, SurfacePoint>) -> ClosureFrame {
     let head = program_head(program);
     closure_slot = slot;
     var normal = (*point).normal;
@@ -57,13 +51,39 @@ fn build_lobes(
             break;
         }
     }
-    let frame = ClosureFrame(normal, (*point).true_normal, (*point).outgoing, (*point).backfacing != 0u, true);
-    closure_set_begin(lobes, frame);
+    return ClosureFrame(normal, (*point).true_normal, (*point).outgoing, (*point).backfacing != 0u, true);
+}
+
+// Makes the lobes of a point from the slot's outputs.
+fn build_lobes(
+    program: u32,
+    slot: u32,
+    point: ptr<function, SurfacePoint>,
+    context: ClosureContext,
+    lobes: ptr<function, LobeSet>,
+) {
+    closure_set_begin(lobes, point_frame(program, slot, point));
+    let head = program_head(program);
     for (var i = 0u; i < head.closures; i += 1u) {
         let closure = program_closure(head.first_closure + i);
         closure_first = closure.first_row;
         closure_prepare(closure.kind, context, lobes);
     }
+}
+
+// What the surface at a point does but scattering.
+fn point_glow(program: u32, slot: u32, point: ptr<function, SurfacePoint>) -> ClosureGlow {
+    let frame = point_frame(program, slot, point);
+    let head = program_head(program);
+    var sum = ClosureGlow();
+    for (var i = 0u; i < head.closures; i += 1u) {
+        let closure = program_closure(head.first_closure + i);
+        closure_first = closure.first_row;
+        let glow = closure_glow(closure.kind, frame);
+        sum.emission += glow.emission;
+        sum.transparency += glow.transparency;
+    }
+    return sum;
 }
 
 fn push_task(slot: u32, task: ShadowTask) {
@@ -87,12 +107,16 @@ fn wave_shade(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     let slot = queue_slot(QUEUE_HITS, k);
     let settings = load_wave_settings(0u);
     var path = load_paths(slot);
-    var point = at_point(AT_HITS, slot);
+    let hit = load_hits(slot);
+    // Not at_point, which would read the path once more.
+    let info = path_info(&path, hit.t);
+    var point = geometry_point(hit.instance, hit.primitive, hit.t, vec2f(hit.u, hit.v), info);
+    let program = geometry_material(hit.instance, hit.primitive);
     var lobes: LobeSet;
-    build_lobes(at_program(AT_HITS, slot), slot, &point, path_closure_context(&path, settings), &lobes);
+    build_lobes(program, slot, &point, path_closure_context(&path, settings), &lobes);
     var task = path_no_task();
     let held_out = geometry_holdout(point.instance);
-    let lives = path_shade(settings, &path, &point, &lobes, load_hits_t(slot), held_out, &task);
+    let lives = path_shade(settings, &path, &point, &lobes, hit.t, held_out, &task);
     store_paths(slot, path);
     if !lives {
         put_slot_state(slot, STATE_FINISHED);
@@ -116,9 +140,7 @@ fn wave_emit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
     var emission = vec3f(1.0);
     if at == AT_EMITTERS {
         var point = at_point(at, slot);
-        var lobes: LobeSet;
-        build_lobes(program, slot, &point, ClosureContext(0.0, true, true, false), &lobes);
-        emission = lobes.emission;
+        emission = point_glow(program, slot, &point).emission;
     } else if program != SCENE_NOTHING {
         emission = program_radiance(program, slot);
     }
@@ -186,11 +208,10 @@ fn wave_pass(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_inde
     }
     let slot = queue_slot(QUEUE_LAYER_HITS, k);
     var point = at_point(AT_LAYERS, slot);
-    var lobes: LobeSet;
-    build_lobes(at_program(AT_LAYERS, slot), slot, &point, ClosureContext(0.0, true, true, false), &lobes);
+    let through = point_glow(at_program(AT_LAYERS, slot), slot, &point).transparency;
     var task = load_tasks(slot);
     let hit = load_hits(slot);
-    path_task_through(&task, lobes.transparency, hit.t, array<u32, 2>(hit.instance, hit.primitive));
+    path_task_through(&task, through, hit.t, array<u32, 2>(hit.instance, hit.primitive));
     store_tasks(slot, task);
     if !is_black(task.value) {
         queue_push(argument(0u), slot);

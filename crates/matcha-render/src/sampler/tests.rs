@@ -18,7 +18,8 @@ fn third_by_recurrence(index: u32) -> u32 {
 
 #[test]
 fn third_dimension_is_its_recurrence() {
-    for i in (0..2000).chain([u32::MAX, 0x8000_0000, 0xdead_beef]) {
+    let single_bits = (0..32).map(|k| 1 << k);
+    for i in (0..2000).chain(single_bits).chain([u32::MAX, 0xdead_beef]) {
         assert_eq!(sobol_third(i).reverse_bits(), third_by_recurrence(i));
     }
 }
