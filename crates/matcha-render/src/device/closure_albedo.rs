@@ -52,22 +52,21 @@ pub fn closure_mean_remapped(ior: f32, f0: Vec3) -> Vec3 {
 pub fn closure_estimate(lobe: ClosureLobe, tables: ClosureTables) -> ClosureReflectance {
     let sides = lobe_sides(lobe, lobe.cos_wo);
     let roughness = lobe_roughness(lobe);
-    let dielectric = lobe.fresnel == FRESNEL_DIELECTRIC && lobe.ior > 1.0;
-    let mut reflected = sides.reflect;
-    if !closure_black(reflected) {
-        if lobe.fresnel == FRESNEL_F82 {
-            let share = closure_schlick_position(tables, roughness, lobe.cos_wo);
-            reflected = closure_towards_white(lobe.f0, share) * lobe.reflects;
-        } else if lobe.fresnel == FRESNEL_REMAPPED || dielectric {
-            let share = closure_dielectric_position(tables, roughness, lobe.cos_wo, lobe.ior);
-            let f0 = if dielectric {
-                splat3(fresnel_f0(lobe.ior))
-            } else {
-                lobe.f0
-            };
-            reflected = closure_towards_white(f0, share) * lobe.reflects;
-        }
-    }
+    let reflected = if closure_black(sides.reflect) {
+        Vec3::ZERO
+    } else if lobe.fresnel == FRESNEL_REMAPPED {
+        let share = closure_dielectric_position(tables, roughness, lobe.cos_wo, lobe.ior);
+        closure_towards_white(lobe.f0, share) * lobe.reflects
+    } else if lobe.fresnel == FRESNEL_F82 {
+        let share = closure_schlick_position(tables, roughness, lobe.cos_wo);
+        closure_towards_white(lobe.f0, share) * lobe.reflects
+    } else if lobe.fresnel == FRESNEL_DIELECTRIC && lobe.ior > 1.0 {
+        let f0 = fresnel_f0(lobe.ior);
+        let share = closure_dielectric_position(tables, roughness, lobe.cos_wo, lobe.ior);
+        splat3(lobe.reflects * (f0 + (1.0 - f0) * share))
+    } else {
+        sides.reflect
+    };
     ClosureReflectance {
         reflected,
         transmitted: sides.transmit,

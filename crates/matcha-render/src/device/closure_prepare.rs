@@ -1,31 +1,32 @@
 //! From a closure's rows to its lobes.
 
 use glam::Vec3;
-use matcha_shade::device::math::max;
+use matcha_shade::device::math::{abs, clamp, max, max3, saturate, select, splat3};
 
-use super::closure_albedo::{ClosureReflectance, closure_energy, closure_estimate};
-use super::closure_glow::principled_emitted;
+use super::closure_albedo::{closure_energy, closure_mean_remapped};
 use super::closure_kind::{
-    CLOSURE_BACKGROUND, CLOSURE_EMISSION, CLOSURE_HOLDOUT, CLOSURE_MODEL_MULTI_GGX,
-    CLOSURE_MODEL_STEP, CLOSURE_PRINCIPLED, CLOSURE_ROW_WEIGHT, CLOSURE_TRANSPARENT,
-    PRINCIPLED_ROW_ALPHA, PRINCIPLED_ROW_BASE_COLOR,
-};
-use super::closure_layer::{
-    ClosureLayer, LAYER_COAT, LAYER_GLASS, LAYER_GLOSSY, LAYER_SHEEN, closure_layer_is_wanted,
-    closure_layer_turns, closure_single_layer,
+    CLOSURE_BACKGROUND, CLOSURE_DIFFUSE, CLOSURE_EMISSION, CLOSURE_GLASS, CLOSURE_GLOSSY,
+    CLOSURE_HOLDOUT, CLOSURE_MODEL_ASHIKHMIN, CLOSURE_MODEL_ASHIKHMIN_SHIRLEY,
+    CLOSURE_MODEL_BECKMANN, CLOSURE_MODEL_MULTI_GGX, CLOSURE_MODEL_STEP, CLOSURE_PRINCIPLED,
+    CLOSURE_REFRACTION, CLOSURE_ROW_WEIGHT, CLOSURE_SHEEN, CLOSURE_SUBSURFACE, CLOSURE_TRANSLUCENT,
+    CLOSURE_TRANSPARENT, DIFFUSE_ROW_COLOR, DIFFUSE_ROW_NORMAL, DIFFUSE_ROW_ROUGHNESS,
+    GLASS_ROW_COLOR, GLASS_ROW_IOR, GLASS_ROW_NORMAL, GLASS_ROW_ROUGHNESS, GLOSSY_ROW_ANISOTROPY,
+    GLOSSY_ROW_COLOR, GLOSSY_ROW_NORMAL, GLOSSY_ROW_ROTATION, GLOSSY_ROW_ROUGHNESS,
+    GLOSSY_ROW_TANGENT, NORMAL_ROW_NORMAL, SUBSURFACE_ROW_NORMAL,
 };
 use super::closure_lobe::{
-    ClosureContext, closure_counts, closure_lobe, closure_normal, closure_valid,
+    ClosureContext, ClosureMultiple, closure_across, closure_add_diffuse, closure_add_lambert,
+    closure_add_sheen, closure_add_velvet, closure_counts, closure_facing_ior, closure_glass_sides,
+    closure_keep, closure_keep_fresnel, closure_lobe, closure_normal, closure_turn, closure_valid,
 };
-use super::closure_principled::{
-    PRINCIPLED_COAT, PRINCIPLED_LAYERS, principled_below, principled_layer, principled_sheen_normal,
-};
-use super::closure_rows::{ClosureRows, closure_color, closure_share, closure_triple};
-use super::closure_set::{LobeSet, closure_mean, closure_set_add_transparency, closure_set_push};
-use super::closure_shape::{ClosurePlan, closure_shape};
+use super::closure_principled::closure_add_principled;
+use super::closure_rows::{ClosureRows, closure_number, closure_triple};
+use super::closure_set::{LobeSet, closure_mean, closure_set_add_transparency};
 use super::closure_tables::ClosureTables;
-use super::lobe::{ClosureLobe, LOBE_BECKMANN, LOBE_GGX};
-use super::lobe_microfacet::lobe_lambda;
+use super::fresnel::fresnel_f0;
+use super::lobe::{
+    ClosureLobe, LOBE_ASHIKHMIN_SHIRLEY, LOBE_BECKMANN, LOBE_DIFFUSE, LOBE_GGX, LOBE_TRANSLUCENT,
+};
 
 /// Adds the lobes of one closure to `set`, which must have been begun.
 ///
@@ -43,135 +44,195 @@ pub fn closure_prepare(
     let weight = closure_triple(rows, CLOSURE_ROW_WEIGHT);
     if family == CLOSURE_EMISSION || family == CLOSURE_BACKGROUND {
         set.emission += weight;
-    } else if family == CLOSURE_HOLDOUT {
-        set.holdout += weight;
     } else if family == CLOSURE_TRANSPARENT {
         closure_set_add_transparency(set, weight);
-    } else if family == CLOSURE_PRINCIPLED || context.scatter {
-        closure_prepare_layers(kind, rows, tables, context, weight, set);
+    } else if family == CLOSURE_HOLDOUT {
+        set.holdout += weight;
+    } else if family == CLOSURE_PRINCIPLED {
+        let multiple = kind / CLOSURE_MODEL_STEP == CLOSURE_MODEL_MULTI_GGX;
+        closure_add_principled(rows, tables, context, multiple, set);
+    } else if context.scatter {
+        closure_prepare_lobe(kind, rows, tables, context, set);
     }
 }
 
-/// Adds the lobes of a closure layer by layer.
+/// A parameter's normal, turned as glossy lobes need it.
 #[inline]
-pub fn closure_prepare_layers(
+pub fn closure_valid_normal(rows: ClosureRows, i: u32, set: &LobeSet) -> Vec3 {
+    closure_valid(set.frame, closure_normal(rows, i, set.frame.n))
+}
+
+/// Adds the lobes of a closure that does nothing but scatter. The shading normal has none:
+/// it is in the frame already.
+#[inline]
+pub fn closure_prepare_lobe(
     kind: u32,
     rows: ClosureRows,
     tables: ClosureTables,
     context: ClosureContext,
-    weight: Vec3,
     set: &mut LobeSet,
 ) {
-    let principled = kind % CLOSURE_MODEL_STEP == CLOSURE_PRINCIPLED;
-    let multiple = kind / CLOSURE_MODEL_STEP == CLOSURE_MODEL_MULTI_GGX;
-    let mut left = weight;
-    let mut base_color = Vec3::ZERO;
-    let mut end = 1;
-    if principled {
-        end = PRINCIPLED_LAYERS;
-        let alpha = closure_share(rows, PRINCIPLED_ROW_ALPHA);
-        if alpha < 1.0 {
-            closure_set_add_transparency(set, weight * (1.0 - alpha));
-            left *= alpha;
-        }
-        base_color = closure_color(rows, PRINCIPLED_ROW_BASE_COLOR);
-    }
-    let mut number = 0;
-    while number < end {
-        let layer = if principled {
-            principled_layer(rows, number, left, base_color, multiple)
-        } else {
-            closure_single_layer(kind, weight)
-        };
-        let counts =
-            closure_layer_is_wanted(layer.form, context) && closure_counts(context, layer.weight);
-        let mut normal = set.frame.n;
-        let mut reflected = Vec3::ZERO;
-        if counts || layer.form == LAYER_COAT {
-            let bent = closure_normal(rows, layer.normal_row, set.frame.n);
-            normal = closure_layer_normal(rows, layer, bent, set);
-            if counts {
-                let mut lobe = closure_lobe(set.frame, layer.kind, layer.weight, normal);
-                let backfacing = set.frame.backfacing;
-                let wo = set.frame.wo;
-                let plan = closure_shape(
-                    rows, tables, context, layer, backfacing, wo, bent, base_color, &mut lobe,
-                );
-                if plan.kept {
-                    reflected = closure_keep(tables, context, layer.form, plan, &mut lobe, set);
-                }
-            }
-        }
-        if principled {
-            left = principled_below(rows, set.frame, layer, normal, left, reflected);
-            if number == PRINCIPLED_COAT {
-                set.emission += principled_emitted(rows, left);
-                if !context.scatter {
-                    break;
-                }
-            }
-        }
-        number += 1;
+    let family = kind % CLOSURE_MODEL_STEP;
+    let model = kind / CLOSURE_MODEL_STEP;
+    let weight = closure_triple(rows, CLOSURE_ROW_WEIGHT);
+    if family == CLOSURE_DIFFUSE {
+        let roughness = closure_number(rows, DIFFUSE_ROW_ROUGHNESS);
+        let normal = closure_normal(rows, DIFFUSE_ROW_NORMAL, set.frame.n);
+        let color = closure_triple(rows, DIFFUSE_ROW_COLOR);
+        closure_add_diffuse(set, context, weight, roughness, normal, color);
+    } else if family == CLOSURE_TRANSLUCENT {
+        let normal = closure_valid_normal(rows, NORMAL_ROW_NORMAL, set);
+        closure_add_lambert(set, context, LOBE_TRANSLUCENT, weight, normal);
+    } else if family == CLOSURE_SUBSURFACE {
+        let normal = closure_valid_normal(rows, SUBSURFACE_ROW_NORMAL, set);
+        closure_add_lambert(set, context, LOBE_DIFFUSE, weight, normal);
+    } else if family == CLOSURE_SHEEN {
+        closure_prepare_sheen(model, rows, tables, context, set);
+    } else if family == CLOSURE_GLOSSY {
+        closure_prepare_glossy(model, rows, tables, context, set);
+    } else if family == CLOSURE_GLASS {
+        closure_prepare_glass(model, rows, tables, context, set);
+    } else if family == CLOSURE_REFRACTION {
+        closure_prepare_refraction(model, rows, context, set);
     }
 }
 
-/// The normal of a layer whose rows say `bent`.
+/// Lobe of a microfacet model.
+#[inline(always)]
+pub fn closure_distribution(model: u32) -> u32 {
+    if model == CLOSURE_MODEL_BECKMANN {
+        LOBE_BECKMANN
+    } else if model == CLOSURE_MODEL_ASHIKHMIN_SHIRLEY {
+        LOBE_ASHIKHMIN_SHIRLEY
+    } else {
+        LOBE_GGX
+    }
+}
+
 #[inline]
-pub fn closure_layer_normal(
+fn closure_prepare_sheen(
+    model: u32,
     rows: ClosureRows,
-    layer: ClosureLayer,
-    bent: Vec3,
-    set: &LobeSet,
-) -> Vec3 {
-    let mut normal = bent;
-    if closure_layer_turns(layer.form) {
-        normal = closure_valid(set.frame, bent);
-    } else if layer.principled && layer.form == LAYER_SHEEN {
-        normal = principled_sheen_normal(rows, bent, set.frame.n);
-    }
-    normal
-}
-
-/// Completes a lobe and puts it into the set: weighs its sampling by what it reflects, gives back
-/// the energy of multiple scattering where that is wanted, blurs it. Returns what it reflects,
-/// with its weight.
-#[inline]
-pub fn closure_keep(
     tables: ClosureTables,
     context: ClosureContext,
-    form: u32,
-    plan: ClosurePlan,
-    lobe: &mut ClosureLobe,
     set: &mut LobeSet,
-) -> Vec3 {
-    let fresnel = form >= LAYER_GLASS;
-    let mut part = ClosureReflectance {
-        reflected: Vec3::ZERO,
-        transmitted: Vec3::ZERO,
-    };
-    if fresnel {
-        part = closure_estimate(*lobe, tables);
-        lobe.sample_weight *= closure_mean(part.reflected + part.transmitted);
+) {
+    let weight = closure_triple(rows, CLOSURE_ROW_WEIGHT);
+    let roughness = closure_number(rows, DIFFUSE_ROW_ROUGHNESS);
+    let normal = closure_normal(rows, DIFFUSE_ROW_NORMAL, set.frame.n);
+    if model == CLOSURE_MODEL_ASHIKHMIN {
+        closure_add_velvet(set, context, weight, roughness, normal);
+    } else {
+        let _reflected = closure_add_sheen(set, tables, context, weight, roughness, normal);
     }
-    if plan.multiple {
-        let energy = closure_energy(*lobe, tables, plan.both, plan.tint);
-        lobe.energy = energy.factor;
-        lobe.weight *= energy.darkening;
-        lobe.sample_weight *= closure_mean(energy.darkening);
-    }
-    let mut reflected = lobe.weight;
-    let mut albedo = lobe.weight;
-    if fresnel {
-        reflected = lobe.weight * part.reflected;
-        albedo = reflected + lobe.weight * part.transmitted;
-    }
-    if form >= LAYER_GLOSSY {
-        lobe.alpha_x = max(lobe.alpha_x, context.blur);
-        lobe.alpha_y = max(lobe.alpha_y, context.blur);
-        if lobe.kind == LOBE_GGX || lobe.kind == LOBE_BECKMANN {
-            lobe.lambda_wo = lobe_lambda(*lobe, set.frame.wo);
+}
+
+#[inline]
+fn closure_prepare_glossy(
+    model: u32,
+    rows: ClosureRows,
+    tables: ClosureTables,
+    context: ClosureContext,
+    set: &mut LobeSet,
+) {
+    let weight = closure_triple(rows, CLOSURE_ROW_WEIGHT);
+    if context.reflective_caustics && closure_counts(context, weight) {
+        let normal = closure_valid_normal(rows, GLOSSY_ROW_NORMAL, set);
+        let mut lobe = closure_lobe(set.frame, closure_distribution(model), weight, normal);
+        closure_glossy_shape(&mut lobe, rows);
+        let phong = model == CLOSURE_MODEL_ASHIKHMIN_SHIRLEY;
+        let least = select(0.0, 1.0e-4, phong);
+        lobe.alpha_x = clamp(lobe.alpha_x, least, 1.0);
+        lobe.alpha_y = clamp(lobe.alpha_y, least, 1.0);
+        if model == CLOSURE_MODEL_MULTI_GGX {
+            let tint = max3(closure_triple(rows, GLOSSY_ROW_COLOR), Vec3::ZERO);
+            let energy = closure_energy(lobe, tables, false, tint);
+            lobe.energy = energy.factor;
+            lobe.weight *= energy.darkening;
+            lobe.sample_weight *= closure_mean(energy.darkening);
         }
+        closure_keep(set, context, lobe, lobe.weight);
     }
-    closure_set_push(set, *lobe, albedo);
-    reflected
+}
+
+/// Roughness and tangent of a Glossy closure.
+#[inline]
+fn closure_glossy_shape(lobe: &mut ClosureLobe, rows: ClosureRows) {
+    let roughness = saturate(closure_number(rows, GLOSSY_ROW_ROUGHNESS));
+    let anisotropy = clamp(closure_number(rows, GLOSSY_ROW_ANISOTROPY), -0.99, 0.99);
+    let alpha = roughness * roughness;
+    if abs(anisotropy) > 1.0e-4 {
+        let rotation = closure_number(rows, GLOSSY_ROW_ROTATION);
+        let tangent = closure_triple(rows, GLOSSY_ROW_TANGENT);
+        let turned = closure_turn(tangent, lobe.normal, rotation);
+        lobe.tangent = closure_across(lobe.normal, turned);
+        // Positive values stretch the highlight along the tangent's bitangent.
+        let small = 1.0 - abs(anisotropy);
+        let large = 1.0 / small;
+        lobe.alpha_x = alpha * select(small, large, anisotropy < 0.0);
+        lobe.alpha_y = alpha * select(large, small, anisotropy < 0.0);
+    } else {
+        lobe.alpha_x = alpha;
+        lobe.alpha_y = alpha;
+    }
+}
+
+#[inline]
+fn closure_prepare_glass(
+    model: u32,
+    rows: ClosureRows,
+    tables: ClosureTables,
+    context: ClosureContext,
+    set: &mut LobeSet,
+) {
+    let weight = closure_triple(rows, CLOSURE_ROW_WEIGHT);
+    let wanted = context.reflective_caustics || context.refractive_caustics;
+    if wanted && closure_counts(context, weight) {
+        let roughness = saturate(closure_number(rows, GLASS_ROW_ROUGHNESS));
+        let ior = max(closure_number(rows, GLASS_ROW_IOR), 1.0e-5);
+        let normal = closure_valid_normal(rows, GLASS_ROW_NORMAL, set);
+        let mut lobe = closure_lobe(set.frame, closure_distribution(model), weight, normal);
+        lobe.alpha_x = roughness * roughness;
+        lobe.alpha_y = roughness * roughness;
+        let f0 = splat3(fresnel_f0(ior));
+        let backfacing = set.frame.backfacing;
+        closure_glass_sides(&mut lobe, backfacing, context, ior, f0, splat3(1.0));
+        // The weight has the colour already; further bounces are tinted by transmission.
+        let multiple = model == CLOSURE_MODEL_MULTI_GGX;
+        let mut tint = Vec3::ZERO;
+        if multiple {
+            tint = max3(closure_triple(rows, GLASS_ROW_COLOR), Vec3::ZERO);
+            if !context.refractive_caustics {
+                tint *= closure_mean_remapped(lobe.ior, lobe.f0);
+            }
+        }
+        let bounces = ClosureMultiple {
+            wanted: multiple,
+            both: true,
+            tint,
+        };
+        let _reflected = closure_keep_fresnel(set, tables, context, lobe, bounces);
+    }
+}
+
+#[inline]
+fn closure_prepare_refraction(
+    model: u32,
+    rows: ClosureRows,
+    context: ClosureContext,
+    set: &mut LobeSet,
+) {
+    let weight = closure_triple(rows, CLOSURE_ROW_WEIGHT);
+    if context.refractive_caustics && closure_counts(context, weight) {
+        let roughness = saturate(closure_number(rows, GLASS_ROW_ROUGHNESS));
+        let ior = max(closure_number(rows, GLASS_ROW_IOR), 1.0e-5);
+        let normal = closure_valid_normal(rows, GLASS_ROW_NORMAL, set);
+        let mut lobe = closure_lobe(set.frame, closure_distribution(model), weight, normal);
+        lobe.alpha_x = roughness * roughness;
+        lobe.alpha_y = roughness * roughness;
+        lobe.ior = closure_facing_ior(set.frame.backfacing, ior);
+        lobe.reflects = 0.0;
+        lobe.tint = splat3(1.0);
+        closure_keep(set, context, lobe, lobe.weight);
+    }
 }

@@ -1,16 +1,13 @@
 //! The lobes of one hit together.
 
 use glam::Vec3;
-use matcha_shade::device::math::{MAX, abs, max};
+use matcha_shade::device::math::{MAX, abs, clamp, dot, max};
 
-use super::closure_ask::{
-    ClosureAnswer, ClosureQuery, closure_set_ask, closure_set_draw, closure_set_towards,
-};
 use super::closure_rows::closure_unit;
 use super::fresnel::FRESNEL_F82;
 use super::lobe::{
     ClosureFrame, ClosureLobe, LOBE_BECKMANN, LOBE_SINGULAR_ALPHA2, LOBE_SINGULAR_DENSITY,
-    LOBE_TRANSLUCENT, SCATTER_TRANSMIT, SCATTER_TRANSPARENT,
+    LOBE_TRANSLUCENT, SCATTER_TRANSMIT, SCATTER_TRANSPARENT, lobe_eval, lobe_sample,
 };
 
 /// Lobes that one hit can have; further ones are counted in [`LobeSet::dropped`] and left
@@ -21,7 +18,7 @@ pub const CLOSURE_CAPACITY: u32 = 24;
 pub const CLOSURE_WEIGHT_CUTOFF: f32 = 1.0e-5;
 
 /// No lobe.
-pub const CLOSURE_NO_LOBE: u32 = 0xffff_ffff;
+const CLOSURE_NO_LOBE: u32 = 0xffff_ffff;
 
 /// The closures of a hit. Reuse one per thread: [`closure_set_begin`] empties it.
 #[derive(Clone, Debug)]
@@ -200,21 +197,39 @@ pub fn closure_set_normal(set: &LobeSet) -> Vec3 {
     closure_unit(sum, set.frame.n)
 }
 
-/// Value and density of the direction that was asked about.
+/// Adds every lobe but number `skip`; densities are multiplied by sampling weights.
 #[inline]
-pub fn closure_set_evaluated(set: &LobeSet, answer: ClosureAnswer) -> Evaluated {
-    Evaluated {
-        value: answer.value,
-        diffuse: answer.diffuse,
-        pdf: answer.pdf / max(set.sum, f32::MIN_POSITIVE),
+pub fn closure_set_accumulate(set: &LobeSet, wi: Vec3, skip: u32, total: &mut Evaluated) {
+    let mut i = 0;
+    while i < set.count {
+        if i != skip {
+            let lobe = set.lobes[i as usize];
+            let at = lobe_eval(lobe, set.frame, wi);
+            let value = at.value * lobe.weight;
+            total.value += value;
+            if lobe.kind <= LOBE_TRANSLUCENT {
+                total.diffuse += value;
+            }
+            total.pdf += at.pdf * lobe.sample_weight;
+        }
+        i += 1;
     }
 }
 
 /// Value and density of all lobes for the direction `wi`. Singular lobes are not in it,
 /// and light from behind the shading normal counts only where some lobe transmits.
 pub fn closure_set_eval(set: &LobeSet, wi: Vec3) -> Evaluated {
-    let answer = closure_set_ask(set, closure_set_towards(set, wi));
-    closure_set_evaluated(set, answer)
+    let mut total = Evaluated {
+        value: Vec3::ZERO,
+        diffuse: Vec3::ZERO,
+        pdf: 0.0,
+    };
+    let hidden = !set.transmits && dot(set.frame.n, wi) < 0.0;
+    if !hidden {
+        closure_set_accumulate(set, wi, CLOSURE_NO_LOBE, &mut total);
+        total.pdf /= max(set.sum, f32::MIN_POSITIVE);
+    }
+    total
 }
 
 /// The lobe that `at`, from 0 to the set's sum, falls on.
@@ -252,29 +267,38 @@ pub fn closure_set_pick(set: &LobeSet, at: f32) -> ClosurePick {
 /// values count too (one-sample model with the balance heuristic, Veach 1997, section
 /// 9.2.4). Flags are 0 where the direction fell on the wrong side of the surface.
 pub fn closure_set_sample(set: &LobeSet, u: Vec3) -> Scattered {
-    let query = closure_set_draw(set, u);
-    closure_set_scattered(set, query, closure_set_ask(set, query))
+    let pick = closure_set_pick(set, u.z * set.sum);
+    if pick.lobe == CLOSURE_NO_LOBE {
+        closure_set_straight(set)
+    } else {
+        closure_set_sample_lobe(set, pick, u)
+    }
 }
 
-/// The direction that was sampled by a query of [`closure_set_draw`].
+/// Samples a direction from one lobe.
 #[inline]
-pub fn closure_set_scattered(
-    set: &LobeSet,
-    query: ClosureQuery,
-    answer: ClosureAnswer,
-) -> Scattered {
-    if !query.asked {
-        closure_set_straight(set)
-    } else if answer.flags == 0 {
+pub fn closure_set_sample_lobe(set: &LobeSet, pick: ClosurePick, u: Vec3) -> Scattered {
+    let lobe = set.lobes[pick.lobe as usize];
+    let rest = clamp(pick.rest / lobe.sample_weight, 0.0, 1.0 - f32::EPSILON);
+    let scattered = lobe_sample(lobe, set.frame, Vec3::new(u.x, u.y, rest));
+    if scattered.flags == 0 || scattered.pdf <= 0.0 {
         closure_scattered_nowhere()
     } else {
+        let mut total = Evaluated {
+            value: scattered.value * lobe.weight,
+            diffuse: Vec3::ZERO,
+            pdf: scattered.pdf * lobe.sample_weight,
+        };
+        if set.count > 1 {
+            closure_set_accumulate(set, scattered.wi, pick.lobe, &mut total);
+        }
         Scattered {
-            wi: answer.wi,
-            weight: answer.value * (set.sum / answer.pdf),
-            pdf: answer.pdf / set.sum,
-            flags: answer.flags,
-            roughness: answer.roughness,
-            eta: answer.eta,
+            wi: scattered.wi,
+            weight: total.value * (set.sum / total.pdf),
+            pdf: total.pdf / set.sum,
+            flags: scattered.flags,
+            roughness: scattered.roughness,
+            eta: scattered.eta,
         }
     }
 }

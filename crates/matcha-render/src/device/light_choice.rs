@@ -184,18 +184,15 @@ pub fn light_choose_group(view: LightView, p: Vec3, n: Vec3, select: f32) -> Lig
     let mut block = 0;
     loop {
         let ranges = light_ranges(view, block, p, n);
-        // A side, and then one of its two parts.
-        let opens = view.groups[block as usize].flags;
-        let mut lane = 0;
-        let mut first = 0;
-        let mut open = true;
-        while open {
-            let part = light_choose_lane(ranges, block, first, choice.place);
+        let side = light_choose_lane(ranges, block, 0, choice.place);
+        let mut lane = side.link;
+        choice.probability *= side.probability;
+        choice.place = side.place;
+        if (view.groups[block as usize].flags & (LIGHT_OPENS << lane)) != 0 {
+            let part = light_choose_lane(ranges, block, 2 * lane + 2, choice.place);
             lane = part.link;
             choice.probability *= part.probability;
             choice.place = part.place;
-            open = first == 0 && (opens & (LIGHT_OPENS << lane)) != 0;
-            first = 2 * lane + 2;
         }
         let possible = choice.probability > 0.0;
         if !possible {

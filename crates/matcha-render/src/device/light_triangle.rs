@@ -71,12 +71,6 @@ pub fn light_triangle_pdf(triangle: LightTriangle, p: Vec3, direction: Vec3, dis
         let solid_angle = light_triangle_solid_angle(triangle, p);
         return select(0.0, 1.0 / max(solid_angle, 1e-30), solid_angle > 1e-12);
     }
-    light_triangle_area_pdf(triangle, direction, distance)
-}
-
-/// The same for a triangle that is sampled by area.
-#[inline(always)]
-pub fn light_triangle_area_pdf(triangle: LightTriangle, direction: Vec3, distance: f32) -> f32 {
     let normal = cross(triangle.b - triangle.a, triangle.c - triangle.a);
     let twice_area = sqrt(dot(normal, normal));
     let cosine = abs(dot(normal, direction)) / max(twice_area, 1e-30);
@@ -151,6 +145,6 @@ pub fn light_triangle_sample(triangle: LightTriangle, p: Vec3, u: Vec2) -> Light
     let to = triangle.a + (triangle.b - triangle.a) * uv.x + (triangle.c - triangle.a) * uv.y - p;
     let distance = sqrt(dot(to, to));
     let direction = to * (1.0 / max(distance, 1e-30));
-    let pdf = light_triangle_area_pdf(triangle, direction, distance);
+    let pdf = light_triangle_pdf(triangle, p, direction, distance);
     LightTrianglePoint { uv, pdf }
 }

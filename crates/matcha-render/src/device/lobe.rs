@@ -7,7 +7,7 @@ use matcha_shade::device::math::splat3;
 use super::lobe_ashikhmin::{
     lobe_ashikhmin_eval, lobe_ashikhmin_sample, lobe_velvet_eval, lobe_velvet_sample,
 };
-use super::lobe_microfacet::{lobe_facet, lobe_facet_value, lobe_microfacet_sample};
+use super::lobe_microfacet::{lobe_microfacet_eval, lobe_microfacet_sample};
 use super::lobe_soft::{lobe_shadow, lobe_soft_eval, lobe_soft_sample};
 
 /// Lambert.
@@ -107,71 +107,28 @@ pub struct LobeValue {
     pub pdf: f32,
 }
 
-/// A microfacet that turns one direction into another.
-#[derive(Clone, Copy, Debug)]
-pub struct LobeFacet {
-    /// There is one.
-    pub possible: bool,
-    /// Its normal, unit.
-    pub h: Vec3,
-    /// That of wi to the normal, times |wo·h|.
-    pub jacobian: f32,
-    /// What it reflects, or refracts.
-    pub fraction: Vec3,
-    /// Probability with which sampling takes that of its two sides.
-    pub probability: f32,
-}
-
-/// No microfacet.
-#[inline(always)]
-pub fn lobe_no_facet() -> LobeFacet {
-    LobeFacet {
-        possible: false,
-        h: splat3(0.0),
-        jacobian: 0.0,
-        fraction: splat3(0.0),
-        probability: 0.0,
-    }
-}
-
-/// A sampled direction; its value is still to be asked for ([`lobe_value`]).
+/// A sampled direction, without the lobe's weight.
 #[derive(Clone, Copy, Debug)]
 pub struct LobeSample {
     /// Unit direction away from the surface.
     pub wi: Vec3,
+    /// f · |cos|, sr⁻¹.
+    pub value: Vec3,
+    /// Density, sr⁻¹.
+    pub pdf: f32,
     /// `SCATTER_` flags; 0: nothing was sampled.
     pub flags: u32,
     /// Square root of the mean α: 1 for diffuse lobes.
     pub roughness: f32,
     /// Relative index of refraction of a transmitted direction, else 1.
     pub eta: f32,
-    /// Of a microfacet lobe: the facet that was sampled. Of a perfectly sharp lobe: its fraction
-    /// and probability.
-    pub facet: LobeFacet,
 }
 
 /// Value and density of a lobe for the direction `wi`. Lobes that are perfectly sharp have
 /// none.
 #[inline(always)]
 pub fn lobe_eval(lobe: ClosureLobe, frame: ClosureFrame, wi: Vec3) -> LobeValue {
-    lobe_value(lobe, frame, wi, lobe_sample_none())
-}
-
-/// Value and density of a lobe for the direction `wi`, which is `sample`'s where that has
-/// flags. One place for both: drivers inline functions.
-#[inline(always)]
-pub fn lobe_value(
-    lobe: ClosureLobe,
-    frame: ClosureFrame,
-    wi: Vec3,
-    sample: LobeSample,
-) -> LobeValue {
-    if (sample.flags & SCATTER_SINGULAR) != 0 {
-        LobeValue {
-            value: sample.facet.fraction * (lobe.energy * LOBE_SINGULAR_DENSITY),
-            pdf: sample.facet.probability * LOBE_SINGULAR_DENSITY,
-        }
-    } else if lobe.kind <= LOBE_TRANSLUCENT {
+    if lobe.kind <= LOBE_TRANSLUCENT {
         let soft = lobe_soft_eval(lobe, frame.wo, wi);
         let shadow = lobe_shadow(lobe, frame, wi);
         LobeValue {
@@ -179,11 +136,7 @@ pub fn lobe_value(
             pdf: soft.pdf,
         }
     } else if lobe.kind <= LOBE_BECKMANN {
-        let mut facet = sample.facet;
-        if sample.flags == 0 {
-            facet = lobe_facet(lobe, frame, wi);
-        }
-        lobe_facet_value(lobe, wi, facet)
+        lobe_microfacet_eval(lobe, frame, wi)
     } else if lobe.kind == LOBE_ASHIKHMIN_SHIRLEY {
         lobe_ashikhmin_eval(lobe, frame, wi)
     } else {
@@ -211,9 +164,10 @@ pub fn lobe_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -> LobeSampl
 pub fn lobe_sample_none() -> LobeSample {
     LobeSample {
         wi: splat3(0.0),
+        value: splat3(0.0),
+        pdf: 0.0,
         flags: 0,
         roughness: 1.0,
         eta: 1.0,
-        facet: lobe_no_facet(),
     }
 }

@@ -7,8 +7,8 @@ use matcha_shade::device::math::{
 };
 
 use super::lobe::{
-    ClosureFrame, ClosureLobe, LobeFacet, LobeSample, LobeValue, SCATTER_DIFFUSE, SCATTER_GLOSSY,
-    SCATTER_REFLECT, SCATTER_SINGULAR, lobe_no_facet, lobe_sample_none,
+    ClosureFrame, ClosureLobe, LOBE_SINGULAR_DENSITY, LobeSample, LobeValue, SCATTER_DIFFUSE,
+    SCATTER_GLOSSY, SCATTER_REFLECT, SCATTER_SINGULAR, lobe_sample_none,
 };
 use super::lobe_microfacet::lobe_roughness;
 use super::mapping::{mapping_cone, mapping_frame, mapping_place};
@@ -103,7 +103,15 @@ pub fn lobe_ashikhmin_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) ->
     let h0 = if mirror { lobe.normal } else { placed };
     let h = h0 * select(1.0, -1.0, dot(h0, frame.wo) < 0.0);
     let wi = h * (2.0 * dot(h, frame.wo)) - frame.wo;
-    if lobe.cos_wo <= 0.0 || dot(frame.ng, wi) <= 0.0 {
+    let at = if mirror {
+        LobeValue {
+            value: splat3(LOBE_SINGULAR_DENSITY),
+            pdf: LOBE_SINGULAR_DENSITY,
+        }
+    } else {
+        lobe_ashikhmin_eval(lobe, frame, wi)
+    };
+    if lobe.cos_wo <= 0.0 || at.pdf <= 0.0 || dot(frame.ng, wi) <= 0.0 {
         lobe_sample_none()
     } else {
         let sharpness = if mirror {
@@ -113,16 +121,11 @@ pub fn lobe_ashikhmin_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) ->
         };
         LobeSample {
             wi,
+            value: at.value,
+            pdf: at.pdf,
             flags: sharpness | SCATTER_REFLECT,
             roughness: lobe_roughness(lobe),
             eta: 1.0,
-            facet: LobeFacet {
-                possible: true,
-                h,
-                jacobian: 0.25,
-                fraction: splat3(1.0),
-                probability: 1.0,
-            },
         }
     }
 }
@@ -161,15 +164,17 @@ pub fn lobe_velvet_eval(lobe: ClosureLobe, wo: Vec3, wi: Vec3) -> LobeValue {
 pub fn lobe_velvet_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -> LobeSample {
     let local = mapping_cone(vec2(u.x, u.y), 1.0);
     let wi = mapping_place(mapping_frame(lobe.normal), local.x, local.y, local.z);
-    if dot(frame.ng, wi) <= 0.0 {
+    let at = lobe_velvet_eval(lobe, frame.wo, wi);
+    if at.pdf <= 0.0 || dot(frame.ng, wi) <= 0.0 {
         lobe_sample_none()
     } else {
         LobeSample {
             wi,
+            value: at.value,
+            pdf: at.pdf,
             flags: SCATTER_DIFFUSE | SCATTER_REFLECT,
             roughness: 1.0,
             eta: 1.0,
-            facet: lobe_no_facet(),
         }
     }
 }

@@ -10,8 +10,8 @@ use super::fresnel::{
     fresnel_position,
 };
 use super::lobe::{
-    ClosureFrame, ClosureLobe, LOBE_GGX, LOBE_SINGULAR_ALPHA2, LobeFacet, LobeSample, LobeValue,
-    SCATTER_GLOSSY, SCATTER_REFLECT, SCATTER_SINGULAR, SCATTER_TRANSMIT, lobe_no_facet,
+    ClosureFrame, ClosureLobe, LOBE_GGX, LOBE_SINGULAR_ALPHA2, LOBE_SINGULAR_DENSITY, LobeSample,
+    LobeValue, SCATTER_GLOSSY, SCATTER_REFLECT, SCATTER_SINGULAR, SCATTER_TRANSMIT,
     lobe_sample_none,
 };
 use super::microfacet::{
@@ -98,34 +98,38 @@ pub fn lobe_density(lobe: ClosureLobe, h: Vec3) -> f32 {
     }
 }
 
-/// Value and density for a known microfacet (Walter et al. 2007, equations 14, 17, 20 and
-/// 21; density of visible normals: Heitz and d'Eon 2014, equation 2).
+/// Value and density for a known half vector (Walter et al. 2007, equations 14, 17, 20 and
+/// 21; density of visible normals: Heitz and d'Eon 2014, equation 2); `jacobian` is that of
+/// wi to h times |wo·h|.
 #[inline(always)]
-pub fn lobe_facet_value(lobe: ClosureLobe, wi: Vec3, facet: LobeFacet) -> LobeValue {
-    if facet.possible {
-        let common = lobe_density(lobe, facet.h) * facet.jacobian / lobe.cos_wo;
-        let masked = common / (1.0 + lobe.lambda_wo + lobe_lambda(lobe, wi));
-        LobeValue {
-            value: facet.fraction * (masked * lobe.energy),
-            pdf: facet.probability * common / (1.0 + lobe.lambda_wo),
-        }
-    } else {
-        LobeValue {
-            value: splat3(0.0),
-            pdf: 0.0,
-        }
+pub fn lobe_microfacet_at(
+    lobe: ClosureLobe,
+    h: Vec3,
+    wi: Vec3,
+    jacobian: f32,
+    fraction: Vec3,
+    probability: f32,
+) -> LobeValue {
+    let common = lobe_density(lobe, h) * jacobian / lobe.cos_wo;
+    let masked = common / (1.0 + lobe.lambda_wo + lobe_lambda(lobe, wi));
+    LobeValue {
+        value: fraction * (masked * lobe.energy),
+        pdf: probability * common / (1.0 + lobe.lambda_wo),
     }
 }
 
-/// The microfacet that turns wo into the direction `wi`.
+/// Value and density of a microfacet lobe.
 #[inline(always)]
-pub fn lobe_facet(lobe: ClosureLobe, frame: ClosureFrame, wi: Vec3) -> LobeFacet {
+pub fn lobe_microfacet_eval(lobe: ClosureLobe, frame: ClosureFrame, wi: Vec3) -> LobeValue {
     let through = dot(lobe.normal, wi) < 0.0;
     let sharp = lobe.alpha_x * lobe.alpha_y <= LOBE_SINGULAR_ALPHA2;
     let same_side = (dot(frame.n, wi) < 0.0) == through;
     let straight = through && abs(lobe.ior - 1.0) < LOBE_SAME_MEDIUM;
     if lobe.cos_wo <= 0.0 || sharp || !same_side || straight {
-        lobe_no_facet()
+        LobeValue {
+            value: splat3(0.0),
+            pdf: 0.0,
+        }
     } else {
         let sum = select3(wi, wi * lobe.ior, through) + frame.wo;
         let reach = max(length(sum), 1.0e-20);
@@ -139,13 +143,10 @@ pub fn lobe_facet(lobe: ClosureLobe, frame: ClosureFrame, wi: Vec3) -> LobeFacet
         // Light cannot refract to the same side of a microfacet, nor off its back.
         let possible = !through || (cos_hi < 0.0 && dot(h, lobe.normal) > 0.0);
         let sides = lobe_sides(lobe, cos_ho);
-        LobeFacet {
-            possible,
-            h,
-            jacobian,
-            fraction: select3(sides.reflect, sides.transmit, through),
-            probability: select(sides.probability, 1.0 - sides.probability, through),
-        }
+        let fraction = select3(sides.reflect, sides.transmit, through);
+        let probability = select(sides.probability, 1.0 - sides.probability, through);
+        let used = select(0.0, 1.0, possible);
+        lobe_microfacet_at(lobe, h, wi, jacobian * used, fraction, probability)
     }
 }
 
@@ -170,11 +171,22 @@ pub fn lobe_microfacet_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -
     if lobe.cos_wo <= 0.0 || cos_ho <= 0.0 || sum.x + sum.y + sum.z <= 0.0 || !same_side {
         lobe_sample_none()
     } else {
+        let fraction = select3(sides.reflect, sides.transmit, through);
+        let probability = select(sides.probability, 1.0 - sides.probability, through);
         let straight = through && abs(lobe.ior - 1.0) < LOBE_SAME_MEDIUM;
         let singular = sharp || straight;
         // Its square must stay a normal number: others are slow.
         let bend = max(abs(sides.cos_transmitted - cos_ho * inverse), 1.0e-12);
         let refraction = cos_ho * sides.cos_transmitted / (bend * bend);
+        let jacobian = select(0.25, refraction, through);
+        let at = if singular {
+            LobeValue {
+                value: fraction * (lobe.energy * LOBE_SINGULAR_DENSITY),
+                pdf: probability * LOBE_SINGULAR_DENSITY,
+            }
+        } else {
+            lobe_microfacet_at(lobe, h, wi, jacobian, fraction, probability)
+        };
         let sharpness = if singular {
             SCATTER_SINGULAR
         } else {
@@ -187,16 +199,11 @@ pub fn lobe_microfacet_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -
         };
         LobeSample {
             wi,
+            value: at.value,
+            pdf: at.pdf,
             flags: sharpness | side,
             roughness: lobe_roughness(lobe),
             eta: select(1.0, lobe.ior, through),
-            facet: LobeFacet {
-                possible: true,
-                h,
-                jacobian: select(0.25, refraction, through),
-                fraction: select3(sides.reflect, sides.transmit, through),
-                probability: select(sides.probability, 1.0 - sides.probability, through),
-            },
         }
     }
 }

@@ -7,7 +7,7 @@ use matcha_shade::device::math::{
 
 use super::lobe::{
     ClosureFrame, ClosureLobe, LOBE_OREN_NAYAR, LOBE_SHEEN, LOBE_TRANSLUCENT, LobeSample,
-    LobeValue, SCATTER_DIFFUSE, SCATTER_REFLECT, SCATTER_TRANSMIT, lobe_no_facet, lobe_sample_none,
+    LobeValue, SCATTER_DIFFUSE, SCATTER_REFLECT, SCATTER_TRANSMIT, lobe_sample_none,
 };
 use super::mapping::{mapping_cosine, mapping_disk, mapping_frame, mapping_place};
 use super::shading_normal::shading_normal_shadow;
@@ -63,8 +63,12 @@ pub fn lobe_soft_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -> Lobe
     if select(height, -height, through) <= 0.0 {
         lobe_sample_none()
     } else {
+        let soft = lobe_soft_eval(lobe, frame.wo, wi);
+        let shadow = lobe_shadow(lobe, frame, wi);
         LobeSample {
             wi,
+            value: soft.value * shadow,
+            pdf: soft.pdf,
             flags: if through {
                 SCATTER_DIFFUSE | SCATTER_TRANSMIT
             } else {
@@ -72,7 +76,6 @@ pub fn lobe_soft_sample(lobe: ClosureLobe, frame: ClosureFrame, u: Vec3) -> Lobe
             },
             roughness: 1.0,
             eta: 1.0,
-            facet: lobe_no_facet(),
         }
     }
 }

@@ -1,16 +1,13 @@
 //! Device code: plain functions that a build-time translator can turn into WGSL.
 pub mod camera;
 pub mod closure_albedo;
-pub mod closure_ask;
 pub mod closure_glow;
 pub mod closure_kind;
-pub mod closure_layer;
 pub mod closure_lobe;
 pub mod closure_prepare;
 pub mod closure_principled;
 pub mod closure_rows;
 pub mod closure_set;
-pub mod closure_shape;
 pub mod closure_tables;
 pub mod error_function;
 pub mod fresnel;

@@ -4,22 +4,18 @@
 #![allow(clippy::too_many_arguments)]
 
 use glam::{Vec2, Vec3};
-use matcha_shade::device::math::{is_finite3, splat3, vec2};
+use matcha_shade::device::math::{splat3, vec2};
 
-use super::closure_ask::{
-    closure_no_query, closure_set_ask, closure_set_draw, closure_set_towards,
-};
 use super::closure_lobe::ClosureContext;
 use super::closure_set::{
-    Evaluated, LobeSet, Scattered, closure_mean, closure_set_albedo, closure_set_evaluated,
-    closure_set_has_bsdf, closure_set_has_eval, closure_set_normal, closure_set_reflects_only,
-    closure_set_scattered,
+    LobeSet, closure_mean, closure_set_albedo, closure_set_eval, closure_set_has_bsdf,
+    closure_set_has_eval, closure_set_normal, closure_set_reflects_only, closure_set_sample,
 };
 use super::light_analytic::LIGHT_FAR;
 use super::light_pdf::light_pdf_triangle;
 use super::light_sample::{
     LIGHT_EMITS_CONSTANT, LIGHT_EMITS_NOTHING, LIGHT_EMITS_TREE, LIGHT_IS_NONE, LightDraw,
-    light_no_draw, light_sample,
+    light_sample,
 };
 use super::light_view::{LIGHT_NONE, LightView};
 use super::lobe::{SCATTER_DIFFUSE, SCATTER_SINGULAR, SCATTER_TRANSMIT, SCATTER_TRANSPARENT};
@@ -27,8 +23,8 @@ use super::path_flags::{PATH_CAMERA, PATH_DIFFUSE, PATH_FEATURES_DONE, PATH_TERM
 use super::path_ray::{ShadowStart, ray_to_light};
 use super::path_start::{DRAW_LIGHT, DRAW_SCATTER};
 use super::path_state::{
-    Path, PathSettings, ScatterKind, path_add_met, path_blur_roughness, path_max_element,
-    path_power_heuristic,
+    Path, PathSettings, ScatterKind, path_add_met, path_blur_roughness, path_is_finite3,
+    path_max_element, path_power_heuristic,
 };
 use super::path_step::{
     PathTurn, path_hold_out, path_keep_small, path_note_features, path_pass_through, path_ray_mask,
@@ -186,37 +182,35 @@ pub fn path_task(
     }
 }
 
-/// Whether a light that was drawn is to be tried.
-#[inline]
-pub fn path_tries(path: &Path, light: &LightDraw) -> bool {
-    let drawn = light.kind != LIGHT_IS_NONE && light.pdf > 0.0;
-    drawn && path_is_lit_by(path, light.visibility, light.max_bounces)
-}
-
-/// Next-event estimation: the task of a light that is tried, for which the closures scatter
-/// `scattered`; none where that brings nothing.
-#[inline]
+/// Next-event estimation: the light to try at a hit.
 pub fn path_try_light(
+    lights: LightView,
     settings: PathSettings,
     path: &Path,
     point: &SurfacePoint,
-    light: &LightDraw,
-    scattered: Evaluated,
+    set: &LobeSet,
 ) -> ShadowTask {
+    let u = sobol_3d(path.seed, path.sample, path.dimension + DRAW_LIGHT);
+    let normal = path_selection_normal(point, set);
+    let draw = light_sample(lights, point.position, normal, u.x, vec2(u.y, u.z));
     let mut task = path_no_task();
-    let mut weight = 1.0;
-    if light.mis {
-        weight = path_power_heuristic(light.pdf, scattered.pdf);
-    }
-    let mut value = path.throughput * scattered.value * (weight / light.pdf);
-    if light.emission.kind == LIGHT_EMITS_CONSTANT {
-        value *= light.emission.radiance;
-        value *= path_keep_small(path, value, settings.light_threshold);
-    } else {
-        value *= path_light_factor(light);
-    }
-    if is_finite3(value) && path_max_element(value) > 0.0 {
-        task = path_task(path, point, light, value, settings);
+    let tried = draw.kind != LIGHT_IS_NONE && draw.pdf > 0.0;
+    if tried && path_is_lit_by(path, draw.visibility, draw.max_bounces) {
+        let scattered = closure_set_eval(set, draw.wi);
+        let mut weight = 1.0;
+        if draw.mis {
+            weight = path_power_heuristic(draw.pdf, scattered.pdf);
+        }
+        let mut value = path.throughput * scattered.value * (weight / draw.pdf);
+        if draw.emission.kind == LIGHT_EMITS_CONSTANT {
+            value *= draw.emission.radiance;
+            value *= path_keep_small(path, value, settings.light_threshold);
+        } else {
+            value *= path_light_factor(&draw);
+        }
+        if path_is_finite3(value) && path_max_element(value) > 0.0 {
+            task = path_task(path, point, &draw, value, settings);
+        }
     }
     task
 }
@@ -231,16 +225,17 @@ pub fn path_light_factor(draw: &LightDraw) -> Vec3 {
     }
 }
 
-/// Sends the path in the direction that its closures sampled; false where it ends.
+/// Sends the path in the direction that its closures sample; false where it ends.
 #[inline]
 pub fn path_go_on(
     settings: PathSettings,
     path: &mut Path,
     point: &SurfacePoint,
-    next: Scattered,
-    selection_normal: Vec3,
+    set: &LobeSet,
     distance: f32,
 ) -> bool {
+    let u = sobol_3d(path.seed, path.sample, path.dimension + DRAW_SCATTER);
+    let next = closure_set_sample(set, u);
     let leaves = [point.instance, point.primitive];
     if next.flags == 0 {
         return false;
@@ -253,7 +248,7 @@ pub fn path_go_on(
     let turn = PathTurn {
         position: point.position,
         true_normal: point.true_normal,
-        selection_normal,
+        selection_normal: path_selection_normal(point, set),
         cone_width: point.cone_width,
         cone_spread: cone_spread_after(path.cone_spread, alpha, diffuse),
         leaves,
@@ -266,48 +261,6 @@ pub fn path_go_on(
         },
     };
     path_scatter(path, next.weight, turn, settings)
-}
-
-/// Tries a light, and then sends the path on; false where it ends. Both ask the lobes about a
-/// direction, and do so in one place: drivers inline functions.
-#[inline]
-pub fn path_light_and_go_on(
-    lights: LightView,
-    settings: PathSettings,
-    path: &mut Path,
-    point: &SurfacePoint,
-    set: &LobeSet,
-    distance: f32,
-    task: &mut ShadowTask,
-) -> bool {
-    let normal = path_selection_normal(point, set);
-    let mut goes_on = !closure_set_has_eval(set);
-    loop {
-        let draw = if goes_on { DRAW_SCATTER } else { DRAW_LIGHT };
-        let u = sobol_3d(path.seed, path.sample, path.dimension + draw);
-        let mut query = closure_no_query();
-        let mut light = light_no_draw();
-        let mut tries = false;
-        if goes_on {
-            query = closure_set_draw(set, u);
-        } else {
-            light = light_sample(lights, point.position, normal, u.x, vec2(u.y, u.z));
-            tries = path_tries(path, &light);
-            if tries {
-                query = closure_set_towards(set, light.wi);
-            }
-        }
-        let answer = closure_set_ask(set, query);
-        if goes_on {
-            let next = closure_set_scattered(set, query, answer);
-            return path_go_on(settings, path, point, next, normal, distance);
-        }
-        if tries {
-            let scattered = closure_set_evaluated(set, answer);
-            *task = path_try_light(settings, path, point, &light, scattered);
-        }
-        goes_on = true;
-    }
 }
 
 /// Everything that happens at one hit at a distance, metres; false where the path ends. The
@@ -344,7 +297,10 @@ pub fn path_shade(
         return (through.x != 0.0 || through.y != 0.0 || through.z != 0.0)
             && path_pass_through(path, through, leaves, distance, settings);
     }
-    path_light_and_go_on(lights, settings, path, point, set, distance, task)
+    if closure_set_has_eval(set) {
+        *task = path_try_light(lights, settings, path, point, set);
+    }
+    path_go_on(settings, path, point, set, distance)
 }
 
 /// Weakens a sampled light by a surface on its way, at the distance `t`, that lets `through` of

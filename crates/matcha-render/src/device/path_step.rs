@@ -1,14 +1,14 @@
 //! From one surface to the next: coverage, features, scattering, transparency, roulette.
 
 use glam::Vec3;
-use matcha_shade::device::math::{MAX, abs3, is_finite3, min};
+use matcha_shade::device::math::{MAX, abs3, min};
 
 use super::path_flags::{PATH_CAMERA, PATH_DIFFUSE, PATH_FEATURES_DONE, PATH_TRANSMIT};
 use super::path_ray::ray_offset_origin;
 use super::path_start::{DRAW_LIGHT_KEEP, DRAW_PER_SURFACE, DRAW_ROULETTE};
 use super::path_state::{
-    Path, PathSettings, ScatterKind, path_count_bounce, path_count_transparent, path_max_element,
-    path_survival, path_uncover,
+    Path, PathSettings, ScatterKind, path_count_bounce, path_count_transparent, path_is_finite3,
+    path_max_element, path_survival, path_uncover,
 };
 use super::ray_kind::{RAY_CAMERA, RAY_DIFFUSE, RAY_GLOSSY, RAY_TRANSMISSION};
 use super::sobol::sobol_1d;
@@ -94,7 +94,7 @@ pub fn path_keep_small(path: &Path, value: Vec3, threshold: f32) -> f32 {
 /// Russian roulette; also ends paths that carry nothing. False where the path ends.
 #[inline]
 pub fn path_survives(path: &mut Path) -> bool {
-    if !is_finite3(path.throughput) || path_max_element(path.throughput) <= 0.0 {
+    if !path_is_finite3(path.throughput) || path_max_element(path.throughput) <= 0.0 {
         return false;
     }
     let survival = path_survival(path.bounce, path.throughput);

@@ -134,19 +134,6 @@ pub fn negate_if(x: f32, cond: bool) -> f32 {
     float_of(bits_of(x) ^ select_u32(0, 0x8000_0000, cond))
 }
 
-/// Whether a number is neither infinite nor not a number.
-#[inline(always)]
-pub fn is_finite(x: f32) -> bool {
-    // By its bits: graphics devices may take every number to be finite.
-    (bits_of(x) & 0x7f80_0000) != 0x7f80_0000
-}
-
-/// [`is_finite`] of every component.
-#[inline(always)]
-pub fn is_finite3(v: Vec3) -> bool {
-    is_finite(v.x) && is_finite(v.y) && is_finite(v.z)
-}
-
 /// Square root; of a negative number not a number.
 #[inline(always)]
 pub fn sqrt(x: f32) -> f32 {

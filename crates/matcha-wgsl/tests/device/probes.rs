@@ -10,7 +10,7 @@ use matcha_cache::device::key_hash::{cell_of, hash_texel, seed_of_node};
 use matcha_render::device::light_triangle::{LightTriangle, light_triangle_sample};
 use matcha_render::device::lobe::{
     ClosureFrame, ClosureLobe, LOBE_ASHIKHMIN_SHIRLEY, LOBE_BECKMANN, LOBE_DIFFUSE, LOBE_GGX,
-    lobe_eval, lobe_sample, lobe_value,
+    lobe_eval, lobe_sample,
 };
 use matcha_render::device::mapping::{mapping_cosine, mapping_disk, mapping_frame, mapping_place};
 use matcha_render::device::microfacet::microfacet_beckmann_slope;
@@ -228,15 +228,11 @@ pub fn probe_lobe(w: [u32; 13], kind: u32) -> [u32; 4] {
         probe_unit(float_of(w[10])),
     );
     let sample = lobe_sample(lobe, frame, u);
-    let mut value = splat3(0.0);
-    if sample.flags != 0 {
-        value = lobe_value(lobe, frame, sample.wi, sample).value;
-    }
     probe_four(
         eval.value.x + eval.value.y,
         eval.pdf,
         sample.wi.x + 0.5 * sample.wi.y + 0.25 * sample.wi.z,
-        value.x,
+        sample.value.x,
     )
 }
 
