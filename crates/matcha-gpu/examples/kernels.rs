@@ -20,9 +20,7 @@ use matcha_gpu::shader::Library;
 use matcha_render::flat::FlatScene;
 use matcha_render::prepare::Prepared;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use naga::{
-    AddressSpace, Expression, Function, Handle, Module, ScalarKind, Statement, TypeInner,
-};
+use naga::{AddressSpace, Expression, Function, Handle, Module, ScalarKind, Statement, TypeInner};
 use std::collections::HashMap;
 use std::ops::{AddAssign, Mul};
 use std::path::Path;
@@ -307,7 +305,11 @@ fn print_size(text: &str, kernel: &str) -> Result<(), Box<dyn std::error::Error>
     let module = naga::front::wgsl::parse_str(text)?;
     let info: ModuleInfo =
         Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module)?;
-    let entry = count(&module, &module.entry_points[0].function, info.get_entry_point(0));
+    let entry = count(
+        &module,
+        &module.entry_points[0].function,
+        info.get_entry_point(0),
+    );
     let functions: HashMap<_, _> = module
         .functions
         .iter()
@@ -325,7 +327,9 @@ fn print_size(text: &str, kernel: &str) -> Result<(), Box<dyn std::error::Error>
     }
     let order: Vec<_> = module.functions.iter().map(|(handle, _)| handle).collect();
     for handle in order.into_iter().rev() {
-        let Some(&times) = copies.get(&handle) else { continue };
+        let Some(&times) = copies.get(&handle) else {
+            continue;
+        };
         for (callee, calls) in &functions[&handle].calls {
             *copies.entry(*callee).or_default() += times * calls;
         }
