@@ -223,7 +223,7 @@ fn a_level_offset_makes_texels_finer() {
 }
 
 #[test]
-fn gradients_are_kept_in_finer_texels() {
+fn gradients_are_kept_in_finer_texels_when_asked_for() {
     let m = material(|g| {
         let pattern = pattern(g, 2.0);
         let height = g.component(pattern, 1);
@@ -234,8 +234,17 @@ fn gradients_are_kept_in_finer_texels() {
         vec![g.apply(OpCode::vector_scale, &[position, slope])]
     });
     let plain = compiled(&material(|g| vec![pattern(g, 2.0)]), true).program;
-    let finer: i32 = Options::default().finer_gradients.into();
-    assert!(finer > 0);
-    let expected = levels(&plain, 0.0).map(|level| level + finer);
-    assert_eq!(levels(&compiled(&m, true).program, 0.0), expected);
+    for finer in [0, 2] {
+        let options = Options {
+            finer_gradients: finer,
+            cost: CostModel {
+                lookup_ns: 0.0,
+                ..CostModel::default()
+            },
+            ..Options::default()
+        };
+        let program = compile(&m, &options).expect("it compiles").program;
+        let expected = levels(&plain, 0.0).map(|level| level + i32::from(finer));
+        assert_eq!(levels(&program, 0.0), expected);
+    }
 }
