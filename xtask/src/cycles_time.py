@@ -17,12 +17,14 @@ scene.render.resolution_percentage = 100
 scene.render.use_persistent_data = True
 scene.render.use_compositing = False
 scene.render.use_sequencer = False
-scene.render.filepath = picture
 scene.render.image_settings.file_format = "OPEN_EXR"
 
 
 def seconds(count):
     scene.cycles.samples = count
+    # Cycles' settings alone do not tell the kept scene that it has changed.
+    scene.render.filepath = picture
+    scene.update_tag()
     start = time.perf_counter()
     bpy.ops.render.render(write_still=True)
     return time.perf_counter() - start
