@@ -118,4 +118,17 @@ fn a_reader_sees_a_whole_entry_or_a_miss() {
 #[test]
 fn value_zero_is_seen_whole_too() {
     read_while_written(2, [(1, 0), (2, 20)]);
+    let writer = job(|table: &Table| {
+        insert(table, 1, 0);
+    });
+    let reader = job(|table: &Table| {
+        let seen = look_up(table, 1);
+        assert!(seen.is_none() || seen == Some(0));
+        assert_eq!(look_up(table, 2), None);
+    });
+    in_every_order(
+        || table(1),
+        vec![writer, reader],
+        |table, _| assert_eq!(look_up(table, 1), Some(0)),
+    );
 }
