@@ -1,4 +1,4 @@
-//! The tests of a walk with AVX2 and FMA: eight boxes or four triangles an instruction.
+//! The tests of a walk with AVX2: eight boxes or four triangles an instruction.
 //!
 //! Methods are `inline(always)` without a `target_feature` of their own, so that they merge into
 //! the walk, which is compiled with the features (`traverse::walk_avx2`).

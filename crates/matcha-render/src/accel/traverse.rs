@@ -246,7 +246,7 @@ fn hit(nearest: &Nearest) -> Option<Hit> {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn walk_avx2<const ANY: bool>(
     tree: &Tree,
     ray: &Ray,
@@ -266,7 +266,7 @@ fn walk_portable<const ANY: bool>(
 /// Instructions that a walk is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Isa {
-    /// AVX2 and FMA.
+    /// AVX2.
     #[cfg(target_arch = "x86_64")]
     Avx2,
     /// What every processor of the target has.
@@ -278,7 +278,6 @@ impl Isa {
     pub(super) fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         if std::is_x86_feature_detected!("avx2")
-            && std::is_x86_feature_detected!("fma")
             && std::is_x86_feature_detected!("bmi1")
             && std::is_x86_feature_detected!("bmi2")
             && std::is_x86_feature_detected!("lzcnt")
