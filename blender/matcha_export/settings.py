@@ -19,6 +19,7 @@ def render_settings(scene):
         "glossy_bounces": int(cycles.glossy_bounces),
         "transmission_bounces": int(cycles.transmission_bounces),
         "transparent_bounces": int(cycles.transparent_max_bounces),
+        "min_bounces": int(cycles.min_light_bounces),
         "clamp_direct": number(cycles.sample_clamp_direct),
         "clamp_indirect": number(cycles.sample_clamp_indirect),
         "blur_glossy": number(cycles.blur_glossy),

@@ -148,11 +148,12 @@ fn front_normal(frame: &Frame, hit: &Hit) -> Vec3 {
     if mirrored { -normal } else { normal }
 }
 
-/// Radiance of the world, for light sampling; none where it is black.
+/// Radiance of the world, for light sampling; none where that finds nothing that the directions of
+/// closures do not find better: where it is the same everywhere (as in Cycles).
 pub fn of_world(prepared: &Prepared) -> Option<WorldRadiance> {
     let world = &prepared.scene().world;
     match prepared.world() {
-        Err(radiance) => (radiance != Vec3::ZERO).then_some(WorldRadiance::Constant(radiance)),
+        Err(_) => None,
         Ok(_) if !world.importance_sample => None,
         Ok(_) => Some(WorldRadiance::Grid(bake(prepared, world.map_resolution))),
     }

@@ -409,6 +409,8 @@ pub struct Settings {
     pub transmission_bounces: u32,
     /// Number of transparent surfaces that a ray passes.
     pub transparent_bounces: u32,
+    /// Bounces before Russian roulette may end a path, beyond the first.
+    pub min_bounces: u32,
     /// Clamp of a direct contribution (sum of channels), 0: none.
     pub clamp_direct: f32,
     /// Clamp of an indirect contribution, 0: none.
@@ -444,6 +446,7 @@ impl Default for Settings {
             glossy_bounces: 4,
             transmission_bounces: 12,
             transparent_bounces: 8,
+            min_bounces: 0,
             clamp_direct: 0.0,
             clamp_indirect: 10.0,
             blur_glossy: 1.0,

@@ -5,6 +5,7 @@ use crate::wavefront::layout::*;
 use crate::wavefront::slot_copy::SlotCopy;
 use crate::wavefront::state::Part;
 use glam::Vec3;
+use matcha_render::device::geometry_view::geometry_material;
 use matcha_render::device::light_view::LIGHT_NONE;
 use matcha_render::device::path_meet::{
     PathMeeting, path_leaves_film, path_meet_lights, path_meet_suns, path_meet_world,
@@ -12,7 +13,9 @@ use matcha_render::device::path_meet::{
 };
 use matcha_render::device::path_start::path_start;
 use matcha_render::device::path_state::{FilmSums, Path, PathHit, film_add, path_add_met};
+use matcha_render::device::path_step::path_reaches;
 use matcha_render::flat::NO_PROGRAM;
+use matcha_shade::program::Program;
 
 impl Twin {
     /// Puts finished paths on the film and starts the next ones.
@@ -46,18 +49,26 @@ impl Twin {
         path_start(camera, filter, self.seed, x, y, pixel, index)
     }
 
-    /// Finds what every path meets next.
+    /// Finds what every path meets next; Russian roulette ends some at the surface.
     pub(super) fn traverse(&self, slots: &mut SlotCopy) {
         for slot in queue(slots, QUEUE_ACTIVE) {
-            let path: Path = slots.load("paths", slot);
+            let mut path: Path = slots.load("paths", slot);
             let hit = self.scene.prepared().accel().closest(&path.ray());
             slots.store("hits", slot, &hit_words(hit, path.t_max));
-            let next = if hit.is_some() {
-                QUEUE_HITS
-            } else {
-                QUEUE_ESCAPED
+            let Some(hit) = hit else {
+                slots.push(QUEUE_ESCAPED, slot);
+                continue;
             };
-            slots.push(next, slot);
+            let geometry = self.scene.geometry();
+            let material = geometry_material(geometry, hit.instance, hit.primitive);
+            let source = self.scene.program(material);
+            let emits = source.is_some_and(Program::has_emission);
+            if path_reaches(&mut path, emits, self.scene.rules()) {
+                change_path(slots, slot, |old| old.flags = path.flags);
+                slots.push(QUEUE_HITS, slot);
+            } else {
+                slots.words_mut("slot_state")[slot as usize] = STATE_FINISHED;
+            }
         }
     }
 

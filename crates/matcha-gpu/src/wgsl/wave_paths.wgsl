@@ -45,7 +45,7 @@ fn wave_regenerate(@builtin(workgroup_id) group: vec3u, @builtin(local_invocatio
     }
 }
 
-// Finds what every path meets next.
+// Finds what every path meets next; Russian roulette ends some at the surface.
 @compute @workgroup_size(64)
 fn wave_traverse(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) local: u32) {
     let k = invocation_number(group, local);
@@ -58,8 +58,14 @@ fn wave_traverse(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_
     store_hits(slot, PathHit(hit.t, hit.u, hit.v, hit.instance, hit.primitive));
     if hit.instance == TRACE_NOTHING {
         queue_push(QUEUE_ESCAPED, slot);
-    } else {
+        return;
+    }
+    let emits = program_head(geometry_material(hit.instance, hit.primitive)).emits != 0u;
+    if path_reaches(&path, emits, load_wave_settings(0u)) {
+        store_paths_flags(slot, path.flags);
         queue_push(QUEUE_HITS, slot);
+    } else {
+        put_slot_state(slot, STATE_FINISHED);
     }
 }
 

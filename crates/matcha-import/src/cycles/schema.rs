@@ -256,6 +256,8 @@ pub(super) struct Settings {
     pub glossy_bounces: u32,
     pub transmission_bounces: u32,
     pub transparent_bounces: u32,
+    #[serde(default)]
+    pub min_bounces: u32,
     pub clamp_direct: f32,
     pub clamp_indirect: f32,
     pub blur_glossy: f32,

@@ -74,6 +74,7 @@ fn convert(s: &schema::Settings) -> Checked<Settings> {
         glossy_bounces: s.glossy_bounces,
         transmission_bounces: s.transmission_bounces,
         transparent_bounces: s.transparent_bounces,
+        min_bounces: s.min_bounces,
         clamp_direct: s.clamp_direct,
         clamp_indirect: s.clamp_indirect,
         blur_glossy: s.blur_glossy,

@@ -18,5 +18,9 @@ pub const PATH_SHADOW: u32 = 64;
 pub const PATH_TERMINATE: u32 = 128;
 /// Albedo, normal and depth are on the film.
 pub const PATH_FEATURES_DONE: u32 = 256;
+/// Russian roulette ends the path at the surface that it has reached, which still adds its emission.
+pub const PATH_ENDS: u32 = 512;
 /// Some diffuse closure scattered the path before (for caustics).
 pub const PATH_DIFFUSE_ANCESTOR: u32 = 1024;
+/// Russian roulette has been played since the last scattering, and the throughput makes up for it.
+pub const PATH_SURVIVED: u32 = 2048;

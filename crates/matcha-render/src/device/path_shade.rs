@@ -19,16 +19,16 @@ use super::light_sample::{
 };
 use super::light_view::{LIGHT_NONE, LightView};
 use super::lobe::{SCATTER_DIFFUSE, SCATTER_SINGULAR, SCATTER_TRANSMIT, SCATTER_TRANSPARENT};
-use super::path_flags::{PATH_CAMERA, PATH_DIFFUSE, PATH_FEATURES_DONE, PATH_TERMINATE};
+use super::path_flags::{PATH_CAMERA, PATH_DIFFUSE, PATH_ENDS, PATH_FEATURES_DONE, PATH_TERMINATE};
 use super::path_ray::{ShadowStart, ray_to_light};
 use super::path_start::{DRAW_LIGHT, DRAW_SCATTER};
 use super::path_state::{
     Path, PathSettings, ScatterKind, path_add_met, path_blur_roughness, path_is_finite3,
-    path_max_element, path_power_heuristic,
+    path_max_element, path_power_heuristic, path_survival,
 };
 use super::path_step::{
     PathTurn, path_hold_out, path_keep_small, path_note_features, path_pass_through, path_ray_mask,
-    path_scatter,
+    path_scatter, path_survive,
 };
 use super::sobol::sobol_3d;
 use super::surface_cone::cone_spread_after;
@@ -102,7 +102,7 @@ pub fn path_closure_context(path: &Path, settings: PathSettings) -> ClosureConte
         reflective_caustics: settings.reflective_caustics != 0 || !caustic,
         refractive_caustics: settings.refractive_caustics != 0 || !caustic,
         // A path that ends here may still go on through transparent surfaces.
-        scatter: (path.flags & PATH_TERMINATE) == 0,
+        scatter: (path.flags & (PATH_TERMINATE | PATH_ENDS)) == 0,
     }
 }
 
@@ -288,9 +288,11 @@ pub fn path_shade(
         let normal = closure_set_normal(set);
         path_note_features(path, albedo, normal, set.transparency, distance);
     }
-    if !closure_set_has_bsdf(set) {
+    if (path.flags & PATH_ENDS) != 0 || !closure_set_has_bsdf(set) {
         return false;
     }
+    let survival = path_survival(path, settings);
+    path_survive(path, survival);
     if (path.flags & PATH_TERMINATE) != 0 {
         let through = set.transparency;
         let leaves = [point.instance, point.primitive];

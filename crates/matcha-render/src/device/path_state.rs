@@ -2,7 +2,7 @@
 
 use super::path_flags::{
     PATH_CAMERA, PATH_DIFFUSE, PATH_DIFFUSE_ANCESTOR, PATH_FEATURES_DONE, PATH_GLOSSY,
-    PATH_REFLECT, PATH_SINGULAR, PATH_TERMINATE, PATH_TRANSMIT,
+    PATH_REFLECT, PATH_SINGULAR, PATH_SURVIVED, PATH_TERMINATE, PATH_TRANSMIT,
 };
 use glam::Vec3;
 use matcha_shade::device::math::{MAX, abs3, bits_of, clamp, max, min, select, splat3, sqrt};
@@ -132,6 +132,8 @@ pub struct PathSettings {
     pub transmission_bounces: u32,
     /// Number of transparent surfaces that a ray passes.
     pub transparent_bounces: u32,
+    /// Russian roulette begins after this many bounces.
+    pub roulette_bounce: u32,
     /// Clamp of a direct contribution (mean of the channels), 0: none.
     pub clamp_direct: f32,
     /// Clamp of an indirect contribution, 0: none.
@@ -219,16 +221,17 @@ pub fn path_count_transparent(path: &mut Path, settings: PathSettings) -> bool {
     path.transparent <= settings.transparent_bounces
 }
 
-/// Probability with which Russian roulette lets a path with a throughput live on.
+/// Probability with which Russian roulette lets a path live on that was scattered; 1 once it
+/// has been played.
 ///
 /// The square root keeps paths alive longer than their throughput alone would: their
 /// light is not known yet, and a killed path costs its whole prefix.
 #[inline]
-pub fn path_survival(bounce: u32, throughput: Vec3) -> f32 {
-    if bounce == 0 {
+pub fn path_survival(path: &Path, settings: PathSettings) -> f32 {
+    if (path.flags & PATH_SURVIVED) != 0 || path.bounce < settings.roulette_bounce {
         return 1.0;
     }
-    clamp(sqrt(path_max_element(throughput)), 0.0, 1.0)
+    clamp(sqrt(path_max_element(path.throughput)), 0.0, 1.0)
 }
 
 /// Roughness below which closures are blurred, as Cycles' filter glossy asks

@@ -3,7 +3,9 @@
 use glam::Vec3;
 use matcha_shade::device::math::{MAX, abs3, min};
 
-use super::path_flags::{PATH_CAMERA, PATH_DIFFUSE, PATH_FEATURES_DONE, PATH_TRANSMIT};
+use super::path_flags::{
+    PATH_CAMERA, PATH_DIFFUSE, PATH_ENDS, PATH_FEATURES_DONE, PATH_SURVIVED, PATH_TRANSMIT,
+};
 use super::path_ray::ray_offset_origin;
 use super::path_start::{DRAW_LIGHT_KEEP, DRAW_PER_SURFACE, DRAW_ROULETTE};
 use super::path_state::{
@@ -91,24 +93,41 @@ pub fn path_keep_small(path: &Path, value: Vec3, threshold: f32) -> f32 {
     if draw < keep { 1.0 / keep } else { 0.0 }
 }
 
-/// Russian roulette; also ends paths that carry nothing. False where the path ends.
+/// Whether Russian roulette lets a path with a probability of survival live on.
 #[inline]
-pub fn path_survives(path: &mut Path) -> bool {
-    if !path_is_finite3(path.throughput) || path_max_element(path.throughput) <= 0.0 {
-        return false;
-    }
-    let survival = path_survival(path.bounce, path.throughput);
+pub fn path_draws_life(path: &Path, survival: f32) -> bool {
     let mut lives = survival >= 1.0;
     if !lives {
         let draw = sobol_1d(path.seed, path.sample, path.dimension + DRAW_ROULETTE);
         lives = draw < survival;
     }
-    path.throughput /= survival;
-    path.dimension += DRAW_PER_SURFACE;
     lives
 }
 
+/// Makes up in a path's throughput for the paths that Russian roulette has ended.
+#[inline]
+pub fn path_survive(path: &mut Path, survival: f32) {
+    path.throughput /= survival;
+    path.flags |= PATH_SURVIVED;
+}
+
+/// Russian roulette at the surface that a path has reached; false where the path ends without
+/// it. Where the surface may emit, a path that ends is marked, and ends when it has added that:
+/// light that a path meets is never at stake.
+#[inline]
+pub fn path_reaches(path: &mut Path, emits: bool, settings: PathSettings) -> bool {
+    let lives = path_draws_life(path, path_survival(path, settings));
+    if !lives {
+        path.flags |= PATH_ENDS;
+    }
+    lives || emits
+}
+
 /// Sends the path on in a sampled direction with a weight; false where it ends.
+///
+/// Russian roulette is played at once after diffuse scattering, which saves the ray: the light
+/// that it could meet is found by next-event estimation. Other paths play at the next surface
+/// ([`path_reaches`]), so that none is ended that would have met a light or the world.
 #[inline]
 pub fn path_scatter(path: &mut Path, weight: Vec3, turn: PathTurn, settings: PathSettings) -> bool {
     path.throughput *= weight;
@@ -126,7 +145,17 @@ pub fn path_scatter(path: &mut Path, weight: Vec3, turn: PathTurn, settings: Pat
     path.leaves = turn.leaves;
     path.cone_width = turn.cone_width;
     path.cone_spread = turn.cone_spread;
-    path_survives(path)
+    path.dimension += DRAW_PER_SURFACE;
+    if !path_is_finite3(path.throughput) || path_max_element(path.throughput) <= 0.0 {
+        return false;
+    }
+    let mut lives = true;
+    if turn.kind.diffuse {
+        let survival = path_survival(path, settings);
+        lives = path_draws_life(path, survival);
+        path_survive(path, survival);
+    }
+    lives
 }
 
 /// Sends the path straight through the surface that it met at the distance `t`; false where

@@ -40,6 +40,8 @@ pub struct ProgramHead {
     pub regions: u32,
     /// Rows that all values of all regions take.
     pub cached_rows: u32,
+    /// Some closure may emit: 0 or 1.
+    pub emits: u32,
 }
 
 /// Where a closure's rows are among the outputs.

@@ -99,6 +99,7 @@ impl FlatPrograms {
             first_region: self.regions.len() as u32,
             regions: program.regions().len() as u32,
             cached_rows: 0,
+            emits: program.has_emission().into(),
         };
         for region in program.regions() {
             self.add_region(program, region, material, first, &mut head.cached_rows);

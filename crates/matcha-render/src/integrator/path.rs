@@ -22,6 +22,8 @@ pub fn path_settings(settings: &Settings) -> PathSettings {
         glossy_bounces: settings.glossy_bounces,
         transmission_bounces: settings.transmission_bounces,
         transparent_bounces: settings.transparent_bounces,
+        // The light of the first bounce is always worth its ray, as in Cycles.
+        roulette_bounce: settings.min_bounces.saturating_add(2),
         clamp_direct: settings.clamp_direct,
         clamp_indirect: settings.clamp_indirect,
         blur_glossy: settings.blur_glossy,

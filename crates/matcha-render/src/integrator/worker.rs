@@ -12,6 +12,7 @@ use crate::device::path_meet::{
 };
 use crate::device::path_shade::ShadowTask;
 use crate::device::path_state::path_add_met;
+use crate::device::path_step::path_reaches;
 use crate::film::{PixelSums, Tile};
 
 use glam::Vec3;
@@ -160,13 +161,20 @@ impl Worker {
             self.counts.rays += 1;
             let reach = hit.map_or(path.t_max, |hit| hit.t);
             add_lights_on_the_way(frame, &mut self.networks, path, reach);
-            match hit {
-                Some(hit) => self.surface_tasks.push(SurfaceTask {
+            let Some(hit) = hit else {
+                self.escaped.push(index);
+                continue;
+            };
+            let material = frame.material_of(&hit);
+            let emits = frame.program(material).has_emission();
+            if path_reaches(path, emits, frame.rules()) {
+                self.surface_tasks.push(SurfaceTask {
                     path: index,
-                    material: frame.material_of(&hit),
+                    material,
                     hit,
-                }),
-                None => self.escaped.push(index),
+                });
+            } else {
+                self.finished.push(index);
             }
         }
     }
