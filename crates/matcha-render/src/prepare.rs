@@ -35,6 +35,8 @@ pub struct Prepared {
     /// By index of the scene's lights, where a node tree's emission varies.
     light_programs: Vec<Option<Program>>,
     transparent_shadows: bool,
+    /// By material: whether it may emit.
+    emits: Vec<bool>,
     pub(crate) accel: Accel,
     pub(crate) lights: LightSet,
     pub(crate) textures: TextureSet,
@@ -71,6 +73,7 @@ impl Prepared {
         let textures = TextureSet::build(&scene.images, all().flat_map(|p| p.textures()));
         let kinds = all().flat_map(|p| &p.inputs).map(|(input, _)| input.kind);
         let surfaces = SurfaceTables::new(&scene, view, kinds);
+        let emits = programs.iter().map(Program::has_emission).collect();
         let mut accel = Accel::build(&scene)?;
         let transparent = transparent_instances(&scene, &programs);
         accel.part_shadows(&transparent);
@@ -83,6 +86,7 @@ impl Prepared {
             world,
             light_programs: lights,
             transparent_shadows: transparent.contains(&true),
+            emits,
             accel,
             lights: LightSet::default(),
             textures,
@@ -163,6 +167,11 @@ impl Prepared {
     /// Whether some material lets light straight through.
     pub(crate) fn has_transparent_shadows(&self) -> bool {
         self.transparent_shadows
+    }
+
+    /// Whether a material may emit.
+    pub(crate) fn emits(&self, material: u32) -> bool {
+        self.emits[material as usize]
     }
 
     /// Material of a hit.

@@ -166,7 +166,7 @@ impl Worker {
                 continue;
             };
             let material = frame.material_of(&hit);
-            let emits = frame.program(material).has_emission();
+            let emits = frame.prepared.emits(material);
             if path_reaches(path, emits, frame.rules()) {
                 self.surface_tasks.push(SurfaceTask {
                     path: index,
