@@ -15,17 +15,10 @@ use glam::{Affine3A, Vec4};
 /// A light of `power` at a place, shining down by default.
 pub fn light(shape: LightShape, transform: Affine3A, power: Vec3) -> Light {
     Light {
-        name: String::new(),
         transform,
         shape,
         power,
-        tree: None,
-        cast_shadow: true,
-        use_mis: true,
-        visibility: Visibility::default(),
-        max_bounces: 1024,
-        normalize: true,
-        random: 0.0,
+        ..Light::default()
     }
 }
 
