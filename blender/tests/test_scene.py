@@ -120,10 +120,12 @@ class Scene(SceneTest):
         self.scene.render.resolution_percentage = 50
         self.scene.cycles.pixel_filter_type, self.scene.cycles.filter_width = "GAUSSIAN", 2.0
         self.scene.cycles.transparent_max_bounces = 17
+        self.scene.cycles.min_light_bounces = 3
         entry = self.export().root["settings"]
         self.assertEqual(entry["resolution"], [150, 100])
         self.assertEqual(entry["filter"], {"type": "GAUSSIAN", "width": 2.0})
         self.assertEqual(entry["transparent_bounces"], 17)
+        self.assertEqual(entry["min_bounces"], 3)
 
     def test_standard_likeness(self):
         _, color = self.surface()

@@ -14,6 +14,7 @@ mod picture;
 mod reference;
 
 use clap::Parser;
+use std::process::ExitCode;
 
 /// Measurements for `docs/results.md`.
 #[derive(Parser)]
@@ -31,12 +32,48 @@ enum Task {
     ManyMaterials(many_materials::Arguments),
 }
 
-fn main() -> anyhow::Result<()> {
-    match Task::parse() {
+/// Every error is one line on standard error and exit code 2, as `matcha`'s are.
+fn main() -> ExitCode {
+    let outcome = match Task::parse() {
         Task::Reference(arguments) => reference::run(&arguments),
         Task::Cycles(arguments) => cycles::run(&arguments),
         Task::GpuBench(arguments) => gpu_bench::run(&arguments),
         Task::FirstPicture(arguments) => first_picture::run(&arguments),
         Task::ManyMaterials(arguments) => many_materials::run(&arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {}", one_line(&error));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// An error with its causes, each once: some errors say their cause themselves. Returned from
+/// `main` it would bring a backtrace where one is asked for, which says nothing about a missing file.
+fn one_line(error: &anyhow::Error) -> String {
+    let mut text = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if text.is_empty() {
+            text = cause;
+        } else if !text.contains(&cause) {
+            text += &format!(": {cause}");
+        }
+    }
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use anyhow::Context;
+
+    #[test]
+    fn an_error_is_one_line_with_its_causes() {
+        let missing = || Err::<(), _>(std::io::Error::other("not\nthere"));
+        let plain = missing().context("a.exr: unreadable").unwrap_err();
+        assert_eq!(super::one_line(&plain), "a.exr: unreadable: not there");
+        let said = missing().context("a.exr: not\nthere").unwrap_err();
+        assert_eq!(super::one_line(&said), "a.exr: not there");
     }
 }

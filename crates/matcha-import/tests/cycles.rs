@@ -116,6 +116,15 @@ fn everything_arrives() {
     );
 }
 
+/// Files from before the exporter wrote it have none.
+#[test]
+fn bounces_before_roulette_are_none_where_absent() {
+    let mut file = cycles();
+    assert_eq!(file.load().unwrap().scene.settings.min_bounces, 0);
+    extension(&mut file)["settings"]["min_bounces"] = json!(3);
+    assert_eq!(file.load().unwrap().scene.settings.min_bounces, 3);
+}
+
 fn extension(file: &mut Gltf) -> &mut Value {
     &mut file.json["extensions"]["MATCHA_cycles"]
 }

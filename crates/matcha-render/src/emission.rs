@@ -3,7 +3,7 @@
 use crate::accel::Hit;
 use crate::film::filter::FilterTable;
 use crate::integrator::{Frame, Networks};
-use crate::light::{MaterialEmission, Sides, WorldGrid, WorldRadiance, grid_direction};
+use crate::light::{MaterialEmission, Sides, WorldGrid, grid_direction};
 use crate::prepare::{Prepared, constant_radiance};
 use crate::scene::PixelFilter;
 use glam::{Vec3, vec3};
@@ -150,12 +150,12 @@ fn front_normal(frame: &Frame, hit: &Hit) -> Vec3 {
 
 /// Radiance of the world, for light sampling; none where that finds nothing that the directions of
 /// closures do not find better: where it is the same everywhere (as in Cycles).
-pub fn of_world(prepared: &Prepared) -> Option<WorldRadiance> {
+pub fn of_world(prepared: &Prepared) -> Option<WorldGrid> {
     let world = &prepared.scene().world;
     match prepared.world() {
         Err(_) => None,
         Ok(_) if !world.importance_sample => None,
-        Ok(_) => Some(WorldRadiance::Grid(bake(prepared, world.map_resolution))),
+        Ok(_) => Some(bake(prepared, world.map_resolution)),
     }
 }
 

@@ -24,7 +24,7 @@ mod world;
 pub use self::tree::{LightTree, Link};
 pub use self::triangles::{MaterialEmission, Sides, Triangles};
 pub use self::visible::{LightHit, RayKind};
-pub use self::world::{WorldGrid, WorldMap, WorldRadiance, grid_direction, luminance};
+pub use self::world::{WorldGrid, WorldMap, grid_direction, luminance};
 pub use crate::device::light_view::{EmissiveTriangle, LightNode, LightOf, LightView};
 
 use self::escape::Distant;
@@ -187,11 +187,12 @@ pub struct LightSet {
 
 impl LightSet {
     /// Collects the lights of a scene. `emission` has an entry for each material of the
-    /// scene, `None` where it does not emit; `world` says what the world radiates.
+    /// scene, `None` where it does not emit; `world` says what the world
+    /// radiates, where light sampling is to look for it.
     pub fn build(
         scene: &Scene,
         emission: Vec<Option<MaterialEmission>>,
-        world: Option<WorldRadiance>,
+        world: Option<WorldGrid>,
     ) -> Self {
         let analytic: Vec<LightOf> = scene
             .lights

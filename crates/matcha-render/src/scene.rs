@@ -255,6 +255,28 @@ pub struct Light {
     pub random: f32,
 }
 
+/// A white point of one watt at the origin that casts shadows and that everybody sees.
+impl Default for Light {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            transform: Affine3A::IDENTITY,
+            shape: LightShape::Point {
+                radius: 0.0,
+                soft_falloff: false,
+            },
+            power: Vec3::ONE,
+            tree: None,
+            cast_shadow: true,
+            use_mis: true,
+            visibility: Visibility::default(),
+            max_bounces: 1024,
+            normalize: true,
+            random: 0.0,
+        }
+    }
+}
+
 /// Shape of an analytic light.
 #[derive(Clone, Copy, Debug)]
 pub enum LightShape {

@@ -6,7 +6,7 @@ use glam::{Affine3A, Vec3};
 use matcha_render::backend::{Backend, CacheMode, Control, CpuSchedule, RenderOptions};
 use matcha_render::cpu::CpuBackend;
 use matcha_render::prepare::Prepared;
-use matcha_render::scene::{Light, LightShape, Scene, Visibility};
+use matcha_render::scene::{Light, LightShape, Scene};
 use matcha_shade::vm::Isa;
 use scenes::*;
 use std::sync::Arc;
@@ -90,17 +90,11 @@ fn a_suns_node_tree_is_evaluated_beside_the_world() {
         scene.trees.push(emits);
         let color = Vec3::new(0.9, 0.6, 0.3);
         scene.lights.push(Light {
-            name: "sun".into(),
             transform: Affine3A::from_rotation_x(std::f32::consts::PI),
             shape: LightShape::Sun { angle: 1.0 },
             power: if tree { Vec3::ONE } else { color },
             tree: tree.then_some(0),
-            cast_shadow: true,
-            use_mis: true,
-            visibility: Visibility::default(),
-            max_bounces: 8,
-            normalize: true,
-            random: 0.0,
+            ..Light::default()
         });
         scene.settings.samples = 4;
         render(scene, &RenderOptions::default())

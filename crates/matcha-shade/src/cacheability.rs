@@ -9,22 +9,6 @@ use crate::input::Dependency;
 use crate::ops::OpCode;
 use crate::opt::Network;
 
-/// The virtual texture that a node's values are kept in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Grid {
-    /// The UV set that it is laid over.
-    pub uv_set: u16,
-    /// Levels that its texels are finer than the hit's footprint asks for.
-    pub finer: u8,
-}
-
-/// The grid of a node that depends on a UV set.
-fn grid(graph: &Graph, id: NodeId, uv_set: u16, finer_gradients: u8) -> Grid {
-    let is_gradient = matches!(graph.node(id).kind, NodeKind::Apply(OpCode::uv_gradient, _));
-    let finer = if is_gradient { finer_gradients } else { 0 };
-    Grid { uv_set, finer }
-}
-
 /// What a value depends on if it is made of two.
 pub fn join(a: Dependency, b: Dependency) -> Dependency {
     match (a, b) {
@@ -92,20 +76,20 @@ pub fn split_wide(network: &Network) -> Network {
     })
 }
 
-/// The nodes to cache and the grid of each: grid by grid, a grid's nodes in order of
-/// evaluation. Gradients of bumps are kept `finer_gradients` levels finer than the rest. Choose on a network after [`split_wide`].
-pub fn choose(network: &Network, model: &CostModel, finer_gradients: u8) -> Vec<(NodeId, Grid)> {
+/// The nodes to cache and the UV set of each: set by set, a set's nodes in order of
+/// evaluation. Choose on a network after [`split_wide`].
+pub fn choose(network: &Network, model: &CostModel) -> Vec<(NodeId, u16)> {
     let dependencies = dependencies(&network.graph);
-    let grid_of = |id: NodeId| match dependencies[id.index()] {
-        Dependency::Uv(set) => (id, grid(&network.graph, id, set, finer_gradients)),
+    let set_of = |id: NodeId| match dependencies[id.index()] {
+        Dependency::Uv(set) => (id, set),
         other => unreachable!("candidates depend on one UV set, not on {other:?}"),
     };
-    let mut chosen: Vec<(NodeId, Grid)> = candidates(network)
+    let mut chosen: Vec<(NodeId, u16)> = candidates(network)
         .into_iter()
         .filter(|&id| network.graph.ty(id) != Ty::F4)
-        .map(grid_of)
+        .map(set_of)
         .collect();
-    chosen.sort_by_key(|&(_, grid)| grid);
+    chosen.sort_by_key(|&(_, set)| set);
     let mut choice = Choice {
         network,
         model,
@@ -190,14 +174,14 @@ fn contains_operation(graph: &Graph) -> Vec<bool> {
 struct Choice<'a> {
     network: &'a Network,
     model: &'a CostModel,
-    /// Sorted by grid.
-    chosen: Vec<(NodeId, Grid)>,
+    /// Sorted by set.
+    chosen: Vec<(NodeId, u16)>,
 }
 
 impl Choice<'_> {
     /// Drops nodes that save less than it costs to find them once their cell is there:
     /// the worst first, for a dropped node's values are then there for the others too.
-    /// Then drops grids whose nodes together do not pay for the look-up of the cell.
+    /// Then drops sets whose nodes together do not pay for the look-up of the cell.
     fn drop_what_does_not_pay(&mut self) {
         if self.model.lookup_ns <= 0.0 {
             return;
@@ -206,8 +190,8 @@ impl Choice<'_> {
             while let Some(worst) = self.worst_node() {
                 self.chosen.remove(worst);
             }
-            match self.worst_grid() {
-                Some(grid) => self.chosen.retain(|&(_, other)| other != grid),
+            match self.worst_set() {
+                Some(set) => self.chosen.retain(|&(_, other)| other != set),
                 None => return,
             }
         }
@@ -218,7 +202,7 @@ impl Choice<'_> {
         for (id, _) in &self.chosen {
             known[id.index()] = true;
         }
-        let saving = |&(id, _): &(NodeId, Grid)| {
+        let saving = |&(id, _): &(NodeId, u16)| {
             let mut others = known.clone();
             others[id.index()] = false;
             self.cost_beyond(&others, &[id])
@@ -232,16 +216,14 @@ impl Choice<'_> {
         (least <= self.model.value_ns).then_some(at)
     }
 
-    fn worst_grid(&self) -> Option<Grid> {
+    fn worst_set(&self) -> Option<u16> {
         let computed = self.computed_without_cache();
-        let of_one_grid = |same: &[(NodeId, Grid)]| {
-            let nodes: Vec<NodeId> = same.iter().map(|&(id, _)| id).collect();
+        let of_one_set = |set: &[(NodeId, u16)]| {
+            let nodes: Vec<NodeId> = set.iter().map(|&(id, _)| id).collect();
             let price = self.model.lookup_ns + self.model.value_ns * nodes.len() as f32;
-            (self.cost_beyond(&computed, &nodes) <= price).then_some(same[0].1)
+            (self.cost_beyond(&computed, &nodes) <= price).then_some(set[0].1)
         };
-        self.chosen
-            .chunk_by(|a, b| a.1 == b.1)
-            .find_map(of_one_grid)
+        self.chosen.chunk_by(|a, b| a.1 == b.1).find_map(of_one_set)
     }
 
     /// Nodes that are computed for every hit, given what is cached.
@@ -319,10 +301,6 @@ mod tests {
     use crate::opt::fold::network_of;
     use crate::vm::Isa;
 
-    fn choose(network: &Network, model: &CostModel) -> Vec<(NodeId, Grid)> {
-        super::choose(network, model, 1)
-    }
-
     fn costs(lookup_ns: f32) -> CostModel {
         CostModel {
             lookup_ns,
@@ -392,32 +370,13 @@ mod tests {
     }
 
     #[test]
-    fn gradients_have_a_grid_of_their_own() {
-        let network = network_of(|g| {
-            let a = costly(g, 0);
-            let [along_u, along_v] =
-                [Part::AxisA, Part::AxisB].map(|axis| g.input(InputKind::Uv(0), axis));
-            let change = g.combine(&[a, a]);
-            let gradient = g.apply(OpCode::uv_gradient, &[change, along_u, along_v]);
-            let x = g.component(gradient, 0);
-            tinted(g, &[a, x])
-        });
-        let grids: Vec<Grid> = choose(&network, &costs(0.0)).iter().map(|c| c.1).collect();
-        let grid = |finer| Grid { uv_set: 0, finer };
-        assert_eq!(grids, [grid(0), grid(1)]);
-    }
-
-    #[test]
     fn two_sets_meet_below_the_choice() {
         let network = network_of(|g| {
             let (a, b) = (costly(g, 0), costly(g, 1));
             let sum = g.apply(OpCode::math_add, &[a, b]);
             tinted(g, &[sum])
         });
-        let sets: Vec<u16> = choose(&network, &costs(0.0))
-            .iter()
-            .map(|c| c.1.uv_set)
-            .collect();
+        let sets: Vec<u16> = choose(&network, &costs(0.0)).iter().map(|c| c.1).collect();
         assert_eq!(sets, [0, 1]);
     }
 
@@ -488,12 +447,7 @@ mod tests {
             value_ns: 0.1 * sine,
             ..costs(series + 0.5 * sine)
         };
-        let sets = |model| -> Vec<u16> {
-            choose(&network, &model)
-                .iter()
-                .map(|c| c.1.uv_set)
-                .collect()
-        };
+        let sets = |model| -> Vec<u16> { choose(&network, &model).iter().map(|c| c.1).collect() };
         assert_eq!(sets(model), [0, 0]);
         // The sine is not worth an entry of its own, and without it the set is not either.
         let value_ns = 1.1 * sine;

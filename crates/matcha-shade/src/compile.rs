@@ -1,6 +1,6 @@
 //! From a lowered material to a program.
 
-use crate::cacheability::{self, Grid};
+use crate::cacheability;
 use crate::emit::emit;
 use crate::graph::NodeId;
 use crate::material::MaterialGraph;
@@ -61,11 +61,6 @@ pub struct Options {
     pub optimise: Optimise,
     /// Costs.
     pub cost: CostModel,
-    /// Levels that a bump's gradient is kept finer than the footprint asks for. A pixel of a
-    /// glossy surface is a mean over its normals, which a handful of them, one for each texel
-    /// that it covers, is not: it glitters. A level offset for everything has served better so
-    /// far (`docs/adr/0004-texel-centres.md`), hence none by default.
-    pub finer_gradients: u8,
 }
 
 impl Default for Options {
@@ -74,7 +69,6 @@ impl Default for Options {
             cache: true,
             optimise: Optimise::default(),
             cost: CostModel::default(),
-            finer_gradients: 0,
         }
     }
 }
@@ -98,8 +92,8 @@ pub struct Compiled {
     /// What it was emitted from.
     pub network: Network,
     /// The network's nodes that are looked up, in the order of the regions' values, each
-    /// with its grid.
-    pub cached: Vec<(NodeId, Grid)>,
+    /// with its UV set.
+    pub cached: Vec<(NodeId, u16)>,
     /// Sizes, in order of the passes.
     pub passes: Vec<PassStatistics>,
 }
@@ -109,7 +103,7 @@ pub fn compile(material: &MaterialGraph, options: &Options) -> Result<Compiled, 
     let (mut network, passes) = opt::optimise(material, options.optimise);
     let cached = if options.cache {
         network = cacheability::split_wide(&network);
-        cacheability::choose(&network, &options.cost, options.finer_gradients)
+        cacheability::choose(&network, &options.cost)
     } else {
         Vec::new()
     };

@@ -4,7 +4,7 @@ mod registers;
 mod schedule;
 mod texel;
 
-use crate::cacheability::{self, Grid, encoding};
+use crate::cacheability::{self, encoding};
 use crate::compile::Options;
 use crate::graph::{Graph, NodeId, NodeKind};
 use crate::input::{Input, InputKind, Part};
@@ -18,11 +18,11 @@ use crate::vm::kernel::LANES;
 use registers::{Source, Step, slot, too_large};
 use std::collections::HashMap;
 
-/// Emits a network. `cached` are the nodes that are looked up, with their grids; those of
-/// one grid, which follow each other, become a region.
+/// Emits a network. `cached` are the nodes that are looked up, with their UV sets; those of
+/// one set, which follow each other, become a region.
 pub fn emit(
     network: &Network,
-    cached: &[(NodeId, Grid)],
+    cached: &[(NodeId, u16)],
     options: &Options,
     name: &str,
     kind: MaterialKind,
@@ -72,7 +72,7 @@ struct Emitter {
 
 impl Emitter {
     /// Gives rows to everything that the rest of the words or a region reads.
-    fn number_inputs(&mut self, network: &Network, cached: &[(NodeId, Grid)]) {
+    fn number_inputs(&mut self, network: &Network, cached: &[(NodeId, u16)]) {
         let mut inputs = Vec::new();
         let stop = |id| cached.iter().any(|(c, _)| *c == id);
         let outputs: Vec<NodeId> = network.outputs().collect();
@@ -83,10 +83,10 @@ impl Emitter {
                 inputs.push(input);
             }
         }
-        for &(_, grid) in cached {
+        for &(_, set) in cached {
             for part in [Part::Value, Part::AxisA, Part::AxisB] {
                 inputs.push(Input {
-                    kind: InputKind::Uv(grid.uv_set),
+                    kind: InputKind::Uv(set),
                     part,
                 });
             }
@@ -108,13 +108,13 @@ impl Emitter {
         found.expect("every input that is read was numbered").1
     }
 
-    /// Emits a region with the nodes of a grid; returns the first register of each one's
+    /// Emits a region with the nodes of a UV set; returns the first register of each one's
     /// value.
     fn region(
         &mut self,
         graph: &Graph,
         nodes: &[NodeId],
-        grid: Grid,
+        set: u16,
         options: &Options,
     ) -> Result<Vec<u16>, ProgramError> {
         let number = self.regions.len() as u32;
@@ -127,7 +127,7 @@ impl Emitter {
             aux: number,
             ..Word::default()
         });
-        let (inner, roots) = texel::at_centre(graph, nodes, grid.uv_set, options.optimise);
+        let (inner, roots) = texel::at_centre(graph, nodes, set, options.optimise);
         let placed = self.pinned + texel::REGISTERS;
         let places = self.words_of(&inner, &roots, &HashMap::new(), placed, false, |input| {
             texel::register(input, texel)
@@ -149,14 +149,14 @@ impl Emitter {
         }
         let uv_rows = [Part::Value, Part::AxisA, Part::AxisB].map(|part| {
             self.input_row(Input {
-                kind: InputKind::Uv(grid.uv_set),
+                kind: InputKind::Uv(set),
                 part,
             })
         });
         let results = values.iter().map(|value| value.result).collect();
         self.regions.push(Region {
             number,
-            grid,
+            uv_set: set,
             values,
             words: start..self.words.len(),
             uv_rows,

@@ -10,7 +10,6 @@ mod verify;
 
 pub use verify::ProgramError;
 
-use crate::cacheability::Grid;
 use crate::closure::{ClosureKind, Ty};
 use crate::graph::{Encoding, Table, TextureRef};
 use crate::input::Input;
@@ -51,14 +50,14 @@ pub struct Word {
     pub aux: u32,
 }
 
-/// The cacheable nodes of a program that are kept in the same grid. They have the same
+/// The cacheable nodes of a program that depend on the same UV set. They have the same
 /// virtual texel, so that one key is made for all, and what they share is computed once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     /// Number in the program.
     pub number: u32,
-    /// Where its texels are.
-    pub grid: Grid,
+    /// The UV set that it depends on.
+    pub uv_set: u16,
     /// The cacheable nodes, at least one.
     pub values: Vec<CachedValue>,
     /// Its words, from `lookup` to after the last `store`.

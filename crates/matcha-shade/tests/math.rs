@@ -39,6 +39,20 @@ fn sines_and_cosines() {
 }
 
 #[test]
+fn what_is_finite() {
+    for x in [0.0, -0.0, 1.0, -MAX, MAX, f32::MIN_POSITIVE, 1e-45] {
+        assert!(is_finite(x), "{x}");
+        assert!(is_finite3(splat3(x)), "{x}");
+    }
+    for x in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN, -f32::NAN] {
+        assert!(!is_finite(x), "{x}");
+        for v in [vec3(x, 0.0, 0.0), vec3(0.0, x, 0.0), vec3(0.0, 0.0, x)] {
+            assert!(!is_finite3(v), "{v}");
+        }
+    }
+}
+
+#[test]
 fn exponentials_and_logarithms() {
     within(worst(over(-120.0, 127.0), exp2, f64::exp2, 0.0), 2.5e-7);
     within(worst(over(-80.0, 80.0), exp, f64::exp, 0.0), 5e-7);

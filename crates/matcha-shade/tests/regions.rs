@@ -5,7 +5,7 @@ mod support;
 use matcha_shade::closure::ClosureKind;
 use matcha_shade::compile::{Compiled, CostModel, Options, compile};
 use matcha_shade::graph::{Graph, NodeId, Span};
-use matcha_shade::input::{InputKind, Part};
+use matcha_shade::input::InputKind;
 use matcha_shade::material::MaterialGraph;
 use matcha_shade::ops::OpCode;
 use matcha_shade::program::Program;
@@ -220,31 +220,4 @@ fn a_level_offset_makes_texels_finer() {
     let program = compiled(&material(|g| vec![pattern(g, 2.0)]), true).program;
     let finer = levels(&program, 0.0).map(|level| level + 3);
     assert_eq!(levels(&program, 3.0), finer);
-}
-
-#[test]
-fn gradients_are_kept_in_finer_texels_when_asked_for() {
-    let m = material(|g| {
-        let pattern = pattern(g, 2.0);
-        let height = g.component(pattern, 1);
-        let change = g.combine(&[height, height]);
-        let [a, b] = [Part::AxisA, Part::AxisB].map(|axis| g.input(InputKind::Uv(0), axis));
-        let gradient = g.apply(OpCode::uv_gradient, &[change, a, b]);
-        let (slope, position) = (g.component(gradient, 0), g.value(InputKind::Position));
-        vec![g.apply(OpCode::vector_scale, &[position, slope])]
-    });
-    let plain = compiled(&material(|g| vec![pattern(g, 2.0)]), true).program;
-    for finer in [0, 2] {
-        let options = Options {
-            finer_gradients: finer,
-            cost: CostModel {
-                lookup_ns: 0.0,
-                ..CostModel::default()
-            },
-            ..Options::default()
-        };
-        let program = compile(&m, &options).expect("it compiles").program;
-        let expected = levels(&plain, 0.0).map(|level| level + i32::from(finer));
-        assert_eq!(levels(&program, 0.0), expected);
-    }
 }

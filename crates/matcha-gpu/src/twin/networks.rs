@@ -74,7 +74,7 @@ impl Twin {
             geometry_quantity(self.scene.geometry(), point, packed).truncate()
         };
         let [uv, a, b] = [INPUT_PART_VALUE, INPUT_PART_AXIS_A, INPUT_PART_AXIS_B].map(part);
-        program_texel(uv, a, b, (-2.0 * self.level_offset).exp2(), region.finer)
+        program_texel(uv, a, b, (-2.0 * self.level_offset).exp2())
     }
 
     /// Evaluates what was not found, as a look-up would have given it.

@@ -87,7 +87,7 @@ fn region_texel(region: ProgramRegion, point: ptr<function, SurfacePoint>) -> Pr
     let uv = geometry_quantity(point, input_pack(INPUT_UV, INPUT_PART_VALUE, region.uv));
     let a = geometry_quantity(point, input_pack(INPUT_UV, INPUT_PART_AXIS_A, region.uv));
     let b = geometry_quantity(point, input_pack(INPUT_UV, INPUT_PART_AXIS_B, region.uv));
-    return program_texel(uv.xy, a.xy, b.xy, scene_float(SCENE_SCALE_SQUARED), region.finer);
+    return program_texel(uv.xy, a.xy, b.xy, scene_float(SCENE_SCALE_SQUARED));
 }
 
 // Looks a value of a region up and puts it into the slot's rows; false if the table lacks it.
@@ -128,7 +128,7 @@ fn compute_region(program: u32, region: ProgramRegion, texel: ProgramTexel, slot
     let centre = texel_centre(texel.i, texel.j, texel.level);
     machine_registers[region.texel] = centre.x;
     machine_registers[region.texel + 1u] = centre.y;
-    machine_registers[region.texel + 2u] = texel_footprint(texel.level - region.finer);
+    machine_registers[region.texel + 2u] = texel_footprint(texel.level);
     machine_run(region.first, region.end);
     for (var i = 0u; i < region.values; i += 1u) {
         store_value(region.first_value + i, texel, slot);

@@ -60,12 +60,7 @@ fn light(name: &str, at: Vec3, shape: LightShape, power: f32, tree: Option<u32>)
         shape,
         power: Vec3::splat(power),
         tree,
-        cast_shadow: true,
-        use_mis: true,
-        visibility: Visibility::default(),
-        max_bounces: 1024,
-        normalize: true,
-        random: 0.0,
+        ..Light::default()
     }
 }
 

@@ -15,7 +15,7 @@ use crate::report::{Report, ReportKind};
 use glam::Vec3;
 use gltf::json::extensions::scene::khr_lights_punctual::{Light as GltfLight, Type};
 use gltf::json::validation::Checked as Valid;
-use matcha_render::scene::{Light, LightShape, Scene, Shader, Visibility};
+use matcha_render::scene::{Light, LightShape, Scene, Shader};
 use std::f32::consts::{FRAC_PI_2, PI};
 
 const LUMENS_PER_WATT: f32 = 683.0;
@@ -62,13 +62,7 @@ pub(crate) fn push(
         transform: to_z_up_aimed(placed.world),
         shape,
         power,
-        tree: None,
-        cast_shadow: true,
-        use_mis: true,
-        visibility: Visibility::default(),
-        max_bounces: 1024,
-        normalize: true,
-        random: 0.0,
+        ..Light::default()
     });
     Ok(())
 }

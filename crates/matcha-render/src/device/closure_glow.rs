@@ -2,7 +2,7 @@
 //! need no more are spared a set of lobes.
 
 use glam::Vec3;
-use matcha_shade::device::math::{dot, max, pow_positive, splat3, sqrt, vec3};
+use matcha_shade::device::math::{dot, is_finite3, max, pow_positive, splat3, sqrt, vec3};
 
 use super::closure_kind::{
     CLOSURE_BACKGROUND, CLOSURE_EMISSION, CLOSURE_HOLDOUT, CLOSURE_MODEL_STEP, CLOSURE_PRINCIPLED,
@@ -12,7 +12,7 @@ use super::closure_kind::{
 };
 use super::closure_lobe::{closure_normal, closure_valid};
 use super::closure_rows::{
-    ClosureRows, closure_color, closure_finite3, closure_number, closure_share, closure_triple,
+    ClosureRows, closure_color, closure_number, closure_share, closure_triple,
 };
 use super::closure_set::{CLOSURE_WEIGHT_CUTOFF, closure_passes};
 use super::lobe::ClosureFrame;
@@ -76,7 +76,7 @@ fn closure_passing(weight: Vec3) -> Vec3 {
 pub fn principled_emitted(rows: ClosureRows, left: Vec3) -> Vec3 {
     let strength = closure_number(rows, PRINCIPLED_ROW_EMISSION_STRENGTH);
     let emitted = closure_triple(rows, PRINCIPLED_ROW_EMISSION_COLOR) * strength * left;
-    if closure_finite3(emitted) {
+    if is_finite3(emitted) {
         emitted
     } else {
         Vec3::ZERO

@@ -2,11 +2,11 @@
 
 use glam::Vec3;
 use matcha_shade::device::math::{
-    FRAC_1_PI, PI, abs, cos, cross, dot, max, max3, min3, saturate, select, sin, splat3,
+    FRAC_1_PI, PI, abs, cos, cross, dot, is_finite, max, max3, min3, saturate, select, sin, splat3,
 };
 
 use super::closure_albedo::{closure_energy, closure_estimate};
-use super::closure_rows::{ClosureRows, closure_finite, closure_triple, closure_unit};
+use super::closure_rows::{ClosureRows, closure_triple, closure_unit};
 use super::closure_set::{CLOSURE_WEIGHT_CUTOFF, LobeSet, closure_mean, closure_set_push};
 use super::closure_tables::{ClosureTables, closure_sheen_fit};
 use super::fresnel::{FRESNEL_NONE, FRESNEL_REMAPPED};
@@ -84,7 +84,7 @@ pub fn closure_across(normal: Vec3, v: Vec3) -> Vec3 {
 pub fn closure_counts(context: ClosureContext, weight: Vec3) -> bool {
     let share = closure_mean(max3(weight, Vec3::ZERO));
     // This way round, so that what is not a number makes no lobe.
-    context.scatter && share >= CLOSURE_WEIGHT_CUTOFF && closure_finite(share)
+    context.scatter && share >= CLOSURE_WEIGHT_CUTOFF && is_finite(share)
 }
 
 /// A lobe with neutral parameters.

@@ -1,7 +1,7 @@
 //! A closure's weight and parameters, as a program returns them for one point.
 
 use glam::Vec3;
-use matcha_shade::device::math::{MAX, bits_of, length, max3, saturate, vec3};
+use matcha_shade::device::math::{MAX, is_finite, is_finite3, length, max3, saturate, vec3};
 
 use super::closure_kind::{
     CLOSURE_BACKGROUND, CLOSURE_EMISSION, CLOSURE_ROW_WEIGHT, NORMAL_ROW_NORMAL,
@@ -14,24 +14,11 @@ pub struct ClosureRows<'a> {
     pub row: &'a [f32],
 }
 
-/// Whether a number is neither infinite nor not a number.
-#[inline(always)]
-pub fn closure_finite(x: f32) -> bool {
-    // By its bits: graphics devices may take every number to be finite.
-    (bits_of(x) & 0x7f80_0000) != 0x7f80_0000
-}
-
-/// [`closure_finite`] of every component.
-#[inline(always)]
-pub fn closure_finite3(v: Vec3) -> bool {
-    closure_finite(v.x) && closure_finite(v.y) && closure_finite(v.z)
-}
-
 /// Row `i`; 0 where it is not finite.
 #[inline(always)]
 pub fn closure_number(rows: ClosureRows, i: u32) -> f32 {
     let value = rows.row[i as usize];
-    if closure_finite(value) { value } else { 0.0 }
+    if is_finite(value) { value } else { 0.0 }
 }
 
 /// Three rows from `i` on; those that are not finite read 0.
@@ -86,7 +73,7 @@ pub fn closure_radiance(kind: u32, rows: ClosureRows) -> Vec3 {
     let z = rows.row[(CLOSURE_ROW_WEIGHT + 2) as usize];
     let weight = vec3(x, y, z);
     let emits = kind == CLOSURE_EMISSION || kind == CLOSURE_BACKGROUND;
-    if emits && closure_finite3(weight) {
+    if emits && is_finite3(weight) {
         weight
     } else {
         Vec3::ZERO

@@ -8,9 +8,7 @@ use crate::device::light_sample::{
 };
 use crate::device::light_tree::light_tree_climb;
 use crate::device::light_triangle::light_triangle_pdf;
-use crate::device::light_view::{
-    LIGHT_IS_MET, LIGHT_MIRRORED, LIGHT_NONE, LIGHT_WORLD_NONE, LightView,
-};
+use crate::device::light_view::{LIGHT_IS_MET, LIGHT_MIRRORED, LIGHT_NONE, LightView};
 use crate::device::light_visible::light_sees;
 use crate::device::light_world::light_world_pdf;
 use glam::Vec3;
@@ -63,10 +61,10 @@ pub fn light_pdf_triangle(
 /// Density with which `light_sample` finds the world in the unit direction `wi`.
 #[inline(always)]
 pub fn light_pdf_world(view: LightView, p: Vec3, n: Vec3, wi: Vec3) -> f32 {
-    if view.world_kind == LIGHT_WORLD_NONE {
+    if view.world_width == 0 {
         return 0.0;
     }
-    light_group_probability(view, view.world_slot, p, n) * light_world_pdf(view, n, wi)
+    light_group_probability(view, view.world_slot, p, n) * light_world_pdf(view, wi)
 }
 
 /// An analytic light on the way of a ray.

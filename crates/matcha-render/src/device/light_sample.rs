@@ -10,8 +10,7 @@ use crate::device::light_tree::light_tree_sample;
 use crate::device::light_triangle::{LightTriangle, light_triangle_sample};
 use crate::device::light_view::{
     LIGHT_BACK, LIGHT_CASTS_SHADOW, LIGHT_FRONT, LIGHT_GROUP_IS_LIGHT, LIGHT_GROUP_IS_TREE,
-    LIGHT_GROUP_WHAT, LIGHT_IS_MET, LIGHT_MIRRORED, LIGHT_NONE, LIGHT_UNIFORM,
-    LIGHT_WORLD_CONSTANT, LightView,
+    LIGHT_GROUP_WHAT, LIGHT_IS_MET, LIGHT_MIRRORED, LIGHT_NONE, LIGHT_UNIFORM, LightView,
 };
 use crate::device::light_world::light_world_sample;
 use crate::device::ray_kind::RAY_ALL;
@@ -223,8 +222,8 @@ pub fn light_sample_analytic(
 
 /// Samples the world, which was drawn with the probability `chosen`.
 #[inline(always)]
-pub fn light_sample_world(view: LightView, n: Vec3, u: Vec2, chosen: f32) -> LightDraw {
-    let sampled = light_world_sample(view, n, u);
+pub fn light_sample_world(view: LightView, u: Vec2, chosen: f32) -> LightDraw {
+    let sampled = light_world_sample(view, u);
     let mut draw = light_no_draw();
     if sampled.pdf > 0.0 {
         draw.kind = LIGHT_IS_WORLD;
@@ -233,13 +232,7 @@ pub fn light_sample_world(view: LightView, n: Vec3, u: Vec2, chosen: f32) -> Lig
         draw.point = sampled.direction;
         draw.normal = -sampled.direction;
         draw.pdf = sampled.pdf * chosen;
-        draw.emission = LightEmission {
-            kind: LIGHT_EMITS_WORLD,
-            radiance: view.world_radiance,
-        };
-        if view.world_kind == LIGHT_WORLD_CONSTANT {
-            draw.emission.kind = LIGHT_EMITS_CONSTANT;
-        }
+        draw.emission.kind = LIGHT_EMITS_WORLD;
         draw.visibility = view.world_visibility;
     }
     draw
@@ -266,5 +259,5 @@ pub fn light_sample(view: LightView, p: Vec3, n: Vec3, select: f32, u: Vec2) -> 
         let chosen = group.probability * emitter.probability;
         return light_sample_triangle(view, emitter.index, p, u, chosen);
     }
-    light_sample_world(view, n, u, group.probability)
+    light_sample_world(view, u, group.probability)
 }

@@ -189,13 +189,6 @@ pub struct LightBox {
     pub count: u32,
 }
 
-/// [`LightView::world_kind`]: the world is not sampled.
-pub const LIGHT_WORLD_NONE: u32 = 0;
-/// [`LightView::world_kind`]: the same in all directions.
-pub const LIGHT_WORLD_CONSTANT: u32 = 1;
-/// [`LightView::world_kind`]: sampled by an importance map.
-pub const LIGHT_WORLD_MAP: u32 = 2;
-
 /// All lights. Functions over the view are always inlined, so that it is never copied whole.
 ///
 /// Analytic lights, the world and instances with emission are the leaves of the tree of
@@ -230,9 +223,7 @@ pub struct LightView<'a> {
     pub order: &'a [u32],
     /// Tables of the world's importance map; see `light_world`.
     pub world: &'a [f32],
-    /// One of the `LIGHT_WORLD_` kinds.
-    pub world_kind: u32,
-    /// Columns of the world's map.
+    /// Columns of the world's map; 0: the world is not sampled.
     pub world_width: u32,
     /// Rows of the world's map.
     pub world_height: u32,
@@ -240,8 +231,6 @@ pub struct LightView<'a> {
     pub world_visibility: u32,
     /// The world's slot in the groups.
     pub world_slot: u32,
-    /// Radiance of a constant world, W·sr⁻¹·m⁻².
-    pub world_radiance: Vec3,
     /// Luminous irradiance of the world's mean radiance on one side.
     pub world_irradiance: f32,
     /// Spherical harmonics of the map's luminance; order as in `light_world_irradiance`.

@@ -1,4 +1,4 @@
-//! The world as a light: constant, or with an importance map.
+//! The world as a light: its importance map.
 //!
 //! The map is equirectangular with rows that are uniform in latitude; row 0 is around +Z.
 //! Inside of a texel directions are uniform in SOLID ANGLE, so that the density is constant
@@ -10,12 +10,10 @@
 
 use crate::device::light_importance::light_world_irradiance;
 use crate::device::light_tree::LIGHT_ONE_BELOW;
-use crate::device::light_view::{LIGHT_WORLD_CONSTANT, LIGHT_WORLD_MAP, LightView};
-use crate::device::mapping::{mapping_cone, mapping_cosine, mapping_frame, mapping_place};
+use crate::device::light_view::LightView;
 use glam::{Vec2, Vec3};
 use matcha_shade::device::math::{
-    FRAC_1_PI, PI, TAU, acos, atan2, clamp, cos, dot, max, select, select_u32, sin, sqrt, to_int,
-    vec3,
+    PI, TAU, acos, atan2, clamp, cos, max, select, select_u32, sin, sqrt, to_int, vec3,
 };
 
 /// Start of the cosines of the rows' edges in the tables of a map with `height` rows.
@@ -55,7 +53,7 @@ pub fn light_from_both_sides(n: Vec3) -> bool {
 /// that of its mean radiance; zero `n`: mean of both sides.
 #[inline(always)]
 pub fn light_world_factor(view: LightView, n: Vec3) -> f32 {
-    if view.world_kind != LIGHT_WORLD_MAP || light_from_both_sides(n) {
+    if light_from_both_sides(n) {
         return 1.0;
     }
     // Nine harmonics ring around sharp suns: never below a tenth of the mean.
@@ -110,7 +108,7 @@ pub fn light_world_texel_pdf(view: LightView, x: u32, y: u32) -> f32 {
 
 /// A direction of the map for `u` in [0, 1)².
 #[inline(always)]
-pub fn light_world_map_sample(view: LightView, u: Vec2) -> LightWorldDirection {
+pub fn light_world_sample(view: LightView, u: Vec2) -> LightWorldDirection {
     let row = light_world_find(view, 0, view.world_height, u.y);
     let start = light_world_row(view.world_width, view.world_height, row.index);
     let column = light_world_find(view, start, view.world_width, u.x);
@@ -132,52 +130,12 @@ pub fn light_world_index(x: f32, count: u32) -> u32 {
     to_int(clamp(x * count as f32, 0.0, (count - 1) as f32)) as u32
 }
 
-/// Density with which [`light_world_map_sample`] finds a unit direction.
+/// Density with which [`light_world_sample`] finds a unit direction.
 #[inline(always)]
-pub fn light_world_map_pdf(view: LightView, direction: Vec3) -> f32 {
+pub fn light_world_pdf(view: LightView, direction: Vec3) -> f32 {
     let s = 0.5 - atan2(direction.y, direction.x) / TAU;
     let t = acos(clamp(direction.z, -1.0, 1.0)) / PI;
     let x = light_world_index(s, view.world_width);
     let y = light_world_index(t, view.world_height);
     light_world_texel_pdf(view, x, y)
-}
-
-/// Density of directions to a constant world: the cosine around `n`, or all alike.
-#[inline]
-pub fn light_world_constant_pdf(n: Vec3, wi: Vec3) -> f32 {
-    select(
-        max(dot(n, wi), 0.0) * FRAC_1_PI,
-        0.25 * FRAC_1_PI,
-        light_from_both_sides(n),
-    )
-}
-
-/// Samples the world: its map, or where it is constant the cosine around `n`.
-#[inline(always)]
-pub fn light_world_sample(view: LightView, n: Vec3, u: Vec2) -> LightWorldDirection {
-    if view.world_kind == LIGHT_WORLD_MAP {
-        return light_world_map_sample(view, u);
-    }
-    let direction = if light_from_both_sides(n) {
-        mapping_cone(u, 2.0)
-    } else {
-        let local = mapping_cosine(u);
-        mapping_place(mapping_frame(n), local.x, local.y, local.z)
-    };
-    LightWorldDirection {
-        direction,
-        pdf: light_world_constant_pdf(n, direction),
-    }
-}
-
-/// Density of [`light_world_sample`]; 0 where the world is not sampled.
-#[inline(always)]
-pub fn light_world_pdf(view: LightView, n: Vec3, wi: Vec3) -> f32 {
-    if view.world_kind == LIGHT_WORLD_MAP {
-        return light_world_map_pdf(view, wi);
-    }
-    if view.world_kind == LIGHT_WORLD_CONSTANT {
-        return light_world_constant_pdf(n, wi);
-    }
-    0.0
 }

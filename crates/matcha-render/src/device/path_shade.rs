@@ -4,7 +4,7 @@
 #![allow(clippy::too_many_arguments)]
 
 use glam::{Vec2, Vec3};
-use matcha_shade::device::math::{splat3, vec2};
+use matcha_shade::device::math::{is_finite3, splat3, vec2};
 
 use super::closure_lobe::ClosureContext;
 use super::closure_set::{
@@ -23,8 +23,8 @@ use super::path_flags::{PATH_CAMERA, PATH_DIFFUSE, PATH_ENDS, PATH_FEATURES_DONE
 use super::path_ray::{ShadowStart, ray_to_light};
 use super::path_start::{DRAW_LIGHT, DRAW_SCATTER};
 use super::path_state::{
-    Path, PathSettings, ScatterKind, path_add_met, path_blur_roughness, path_is_finite3,
-    path_max_element, path_power_heuristic, path_survival,
+    Path, PathSettings, ScatterKind, path_add_met, path_blur_roughness, path_max_element,
+    path_power_heuristic, path_survival,
 };
 use super::path_step::{
     PathTurn, path_hold_out, path_keep_small, path_note_features, path_pass_through, path_ray_mask,
@@ -208,7 +208,7 @@ pub fn path_try_light(
         } else {
             value *= path_light_factor(&draw);
         }
-        if path_is_finite3(value) && path_max_element(value) > 0.0 {
+        if is_finite3(value) && path_max_element(value) > 0.0 {
             task = path_task(path, point, &draw, value, settings);
         }
     }

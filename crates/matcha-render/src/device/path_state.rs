@@ -5,7 +5,9 @@ use super::path_flags::{
     PATH_REFLECT, PATH_SINGULAR, PATH_SURVIVED, PATH_TERMINATE, PATH_TRANSMIT,
 };
 use glam::Vec3;
-use matcha_shade::device::math::{MAX, abs3, bits_of, clamp, max, min, select, splat3, sqrt};
+use matcha_shade::device::math::{
+    MAX, abs3, clamp, is_finite, is_finite3, max, min, select, splat3, sqrt,
+};
 
 /// Everything that a path carries from one surface to the next.
 #[derive(Clone, Copy, Debug)]
@@ -161,18 +163,6 @@ pub struct ScatterKind {
     pub transmit: bool,
 }
 
-/// True for numbers that are neither infinite nor not-a-number.
-#[inline(always)]
-pub fn path_is_finite(x: f32) -> bool {
-    (bits_of(x) & 0x7f80_0000) != 0x7f80_0000
-}
-
-/// True where all three components are.
-#[inline(always)]
-pub fn path_is_finite3(v: Vec3) -> bool {
-    path_is_finite(v.x) && path_is_finite(v.y) && path_is_finite(v.z)
-}
-
 /// The largest of three components.
 #[inline(always)]
 pub fn path_max_element(v: Vec3) -> f32 {
@@ -249,7 +239,7 @@ pub fn path_blur_roughness(min_pdf: f32, blur_glossy: f32) -> f32 {
 /// light. What is not finite becomes nothing.
 #[inline]
 pub fn path_clamped(light: Vec3, bounce: u32, settings: PathSettings) -> Vec3 {
-    if !path_is_finite3(light) {
+    if !is_finite3(light) {
         return splat3(0.0);
     }
     let limit = select(settings.clamp_indirect, settings.clamp_direct, bounce == 0);
@@ -266,7 +256,7 @@ pub fn path_clamped(light: Vec3, bounce: u32, settings: PathSettings) -> Vec3 {
 /// Veach 1997, section 9.2.4); 1 where `a` stands for a certainty (the largest number).
 #[inline]
 pub fn path_power_heuristic(a: f32, b: f32) -> f32 {
-    if a >= MAX || !path_is_finite(a) {
+    if a >= MAX || !is_finite(a) {
         return 1.0;
     }
     // Squares of large densities overflow; the ratio is limited.

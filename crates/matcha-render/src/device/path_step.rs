@@ -1,7 +1,7 @@
 //! From one surface to the next: coverage, features, scattering, transparency, roulette.
 
 use glam::Vec3;
-use matcha_shade::device::math::{MAX, abs3, min};
+use matcha_shade::device::math::{MAX, abs3, is_finite3, min};
 
 use super::path_flags::{
     PATH_CAMERA, PATH_DIFFUSE, PATH_ENDS, PATH_FEATURES_DONE, PATH_SURVIVED, PATH_TRANSMIT,
@@ -9,8 +9,8 @@ use super::path_flags::{
 use super::path_ray::ray_offset_origin;
 use super::path_start::{DRAW_LIGHT_KEEP, DRAW_PER_SURFACE, DRAW_ROULETTE};
 use super::path_state::{
-    Path, PathSettings, ScatterKind, path_count_bounce, path_count_transparent, path_is_finite3,
-    path_max_element, path_survival, path_uncover,
+    Path, PathSettings, ScatterKind, path_count_bounce, path_count_transparent, path_max_element,
+    path_survival, path_uncover,
 };
 use super::ray_kind::{RAY_CAMERA, RAY_DIFFUSE, RAY_GLOSSY, RAY_TRANSMISSION};
 use super::sobol::sobol_1d;
@@ -146,7 +146,7 @@ pub fn path_scatter(path: &mut Path, weight: Vec3, turn: PathTurn, settings: Pat
     path.cone_width = turn.cone_width;
     path.cone_spread = turn.cone_spread;
     path.dimension += DRAW_PER_SURFACE;
-    if !path_is_finite3(path.throughput) || path_max_element(path.throughput) <= 0.0 {
+    if !is_finite3(path.throughput) || path_max_element(path.throughput) <= 0.0 {
         return false;
     }
     let mut lives = true;

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec2;
 use matcha_cache::device::key_hash::{KeyHash, NodeSeed, hash_texel};
 use matcha_shade::device::ramp::{ramp_mix, ramp_place};
-use matcha_shade::device::texel::{texel_finer, texel_index, texel_level};
+use matcha_shade::device::texel::{texel_index, texel_level};
 
 /// Words of an instruction in `words`: operation, width of the result and first register of
 /// it; twelve operands in six words; the immediate.
@@ -54,7 +54,7 @@ pub struct ProgramClosure {
     pub first_row: u32,
 }
 
-/// The cacheable nodes of a program that are kept in the same virtual texture.
+/// The cacheable nodes of a program that depend on one UV set.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct ProgramRegion {
@@ -66,8 +66,6 @@ pub struct ProgramRegion {
     pub texel: u32,
     /// Name of the UV set.
     pub uv: u32,
-    /// Levels that its texels are finer than the footprint asks for.
-    pub finer: i32,
     /// Into `values`.
     pub first_value: u32,
     /// Number of values.
@@ -143,10 +141,10 @@ pub struct ProgramTexel {
 }
 
 /// The virtual texel at a place whose footprint has the half axes `a` and `b`;
-/// `scale_squared` is 4^−offset; it is `finer` levels finer than that.
+/// `scale_squared` is 4^−offset.
 #[inline]
-pub fn program_texel(uv: Vec2, a: Vec2, b: Vec2, scale_squared: f32, finer: i32) -> ProgramTexel {
-    let level = texel_finer(texel_level(a, b, scale_squared), finer);
+pub fn program_texel(uv: Vec2, a: Vec2, b: Vec2, scale_squared: f32) -> ProgramTexel {
+    let level = texel_level(a, b, scale_squared);
     ProgramTexel {
         level,
         i: texel_index(uv.x, level),

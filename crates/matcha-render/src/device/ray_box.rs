@@ -1,7 +1,7 @@
 //! What the walks of both devices agree on when they test boxes, and before they begin.
 
 use glam::Vec3;
-use matcha_shade::device::math::{abs, bits_of, dot, select, vec3};
+use matcha_shade::device::math::{abs, dot, is_finite, is_finite3, select, vec3};
 
 /// Grows the far side of a box test so that rounding never misses a box: Ize 2013, "Robust BVH
 /// ray traversal", equation 2, gives 1 + 2γ(3), γ(n) being about n half units in the last
@@ -28,21 +28,11 @@ pub fn box_inverse(direction: Vec3) -> Vec3 {
     )
 }
 
-/// True for a number that is neither infinite nor not a number, told by its bits.
-#[inline(always)]
-pub fn ray_number_is_finite(x: f32) -> bool {
-    (bits_of(x) & 0x7f80_0000) != 0x7f80_0000
-}
-
 /// False if a coordinate is not a finite number or the direction is zero: such a ray hits nothing.
 #[inline(always)]
 pub fn ray_is_sound(origin: Vec3, direction: Vec3) -> bool {
     let length_squared = dot(direction, direction);
-    ray_number_is_finite(origin.x)
-        && ray_number_is_finite(origin.y)
-        && ray_number_is_finite(origin.z)
-        && ray_number_is_finite(length_squared)
-        && length_squared > 0.0
+    is_finite3(origin) && is_finite(length_squared) && length_squared > 0.0
 }
 
 #[cfg(test)]

@@ -143,8 +143,7 @@ impl FlatPrograms {
             first: first + body.start as u32,
             end: first + body.end as u32,
             texel: program.words()[region.words.start].dst.into(),
-            uv: region.grid.uv_set.into(),
-            finer: region.grid.finer.into(),
+            uv: region.uv_set.into(),
             first_value: self.values.len() as u32,
             values: region.values.len() as u32,
         });

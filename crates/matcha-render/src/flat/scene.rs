@@ -205,7 +205,6 @@ fn light_sections<'a>(view: &'a LightView<'a>) -> Vec<Section<'a>> {
     fields!(
         groups group_parents nodes parents slots triangles first of_primitive materials lights suns
         boxes order world;
-        world_kind world_width world_height world_visibility world_slot world_radiance
-        world_irradiance world_harmonics
+        world_width world_height world_visibility world_slot world_irradiance world_harmonics
     )
 }

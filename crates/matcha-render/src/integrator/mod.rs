@@ -121,3 +121,6 @@ impl Path {
         film_add(&mut sums[self.pixel as usize], self);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -15,17 +15,10 @@ use glam::{Affine3A, Vec4};
 /// A light of `power` at a place, shining down by default.
 pub fn light(shape: LightShape, transform: Affine3A, power: Vec3) -> Light {
     Light {
-        name: String::new(),
         transform,
         shape,
         power,
-        tree: None,
-        cast_shadow: true,
-        use_mis: true,
-        visibility: Visibility::default(),
-        max_bounces: 1024,
-        normalize: true,
-        random: 0.0,
+        ..Light::default()
     }
 }
 
@@ -88,13 +81,32 @@ pub fn constant(sample: &LightSample) -> Vec3 {
     }
 }
 
+/// The grid of a world with the same radiance everywhere.
+pub fn even_world(radiance: f32) -> WorldGrid {
+    let (width, height) = (16, 8);
+    WorldGrid {
+        width,
+        height,
+        radiance: vec![Vec3::splat(radiance); (width * height) as usize],
+    }
+}
+
 /// Irradiance at a point by next-event estimation without occlusion.
 pub fn irradiance(lights: &LightSet, p: Vec3, n: Vec3, samples: u32) -> Vec3 {
+    irradiance_under(0.0, lights, p, n, samples)
+}
+
+/// The same, under a world with the same radiance everywhere.
+pub fn irradiance_under(world: f32, lights: &LightSet, p: Vec3, n: Vec3, samples: u32) -> Vec3 {
     let mut sum = [0.0f64; 3];
     for i in 0..samples {
         let select = sample_1d(7, i, 0);
         if let Some(s) = lights.sample(p, n, select, sample_2d(7, i, 1)) {
-            let value = constant(&s) * (s.wi.dot(n).max(0.0) / s.pdf);
+            let radiance = match s.light {
+                LightId::World => Vec3::splat(world),
+                _ => constant(&s),
+            };
+            let value = radiance * (s.wi.dot(n).max(0.0) / s.pdf);
             for (sum, v) in sum.iter_mut().zip(value.to_array()) {
                 *sum += f64::from(v);
             }

@@ -1,8 +1,8 @@
 //! What the world radiates, and its importance map; sampling is in
 //! [`crate::device::light_world`].
 
-use crate::device::light_view::{LIGHT_WORLD_MAP, LightView};
-use crate::device::light_world::{light_world_factor, light_world_map_pdf, light_world_map_sample};
+use crate::device::light_view::LightView;
+use crate::device::light_world::{light_world_factor, light_world_pdf, light_world_sample};
 use glam::{Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
 
@@ -11,7 +11,8 @@ pub fn luminance(rgb: Vec3) -> f32 {
     rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
 
-/// Radiance samples of the world on an equirectangular grid.
+/// Radiance samples of the world on an equirectangular grid. They guide light sampling only: radiance
+/// is evaluated where it is needed.
 #[derive(Clone, Debug)]
 pub struct WorldGrid {
     /// Columns.
@@ -29,15 +30,6 @@ pub fn grid_direction(x: f32, y: f32, width: u32, height: u32) -> Vec3 {
     let azimuth = PI - TAU * x / width as f32;
     let (sine, cosine) = (PI * y / height as f32).sin_cos();
     Vec3::new(sine * azimuth.cos(), sine * azimuth.sin(), cosine)
-}
-
-/// What the world radiates, as a light.
-#[derive(Clone, Debug)]
-pub enum WorldRadiance {
-    /// The same everywhere, W·sr⁻¹·m⁻².
-    Constant(Vec3),
-    /// Varies: radiance must be evaluated where it is needed; the grid guides sampling.
-    Grid(WorldGrid),
 }
 
 /// A sampling density over directions made from a grid.
@@ -102,7 +94,6 @@ impl WorldMap {
     pub fn view(&self) -> LightView<'_> {
         LightView {
             world: &self.tables,
-            world_kind: LIGHT_WORLD_MAP,
             world_width: self.width,
             world_height: self.height,
             world_irradiance: self.mean_irradiance,
@@ -123,13 +114,13 @@ impl WorldMap {
 
     /// A direction for `u` in [0, 1)², with its density over solid angle.
     pub fn sample(&self, u: Vec2) -> (Vec3, f32) {
-        let sampled = light_world_map_sample(self.view(), u);
+        let sampled = light_world_sample(self.view(), u);
         (sampled.direction, sampled.pdf)
     }
 
     /// Density over solid angle with which `sample` finds a unit direction.
     pub fn pdf(&self, direction: Vec3) -> f32 {
-        light_world_map_pdf(self.view(), direction)
+        light_world_pdf(self.view(), direction)
     }
 }
 

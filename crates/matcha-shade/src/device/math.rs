@@ -74,6 +74,19 @@ pub fn float_of(bits: u32) -> f32 {
     f32::from_bits(bits)
 }
 
+/// Whether a number is neither infinite nor not a number.
+#[inline(always)]
+pub fn is_finite(x: f32) -> bool {
+    // By its bits: graphics devices may take every number to be finite.
+    (bits_of(x) & 0x7f80_0000) != 0x7f80_0000
+}
+
+/// [`is_finite`] of every component.
+#[inline(always)]
+pub fn is_finite3(v: Vec3) -> bool {
+    is_finite(v.x) && is_finite(v.y) && is_finite(v.z)
+}
+
 /// Product modulo 2³².
 #[inline(always)]
 pub fn wrapping_mul(a: u32, b: u32) -> u32 {

@@ -22,13 +22,6 @@ pub fn texel_level(a: Vec2, b: Vec2, scale_squared: f32) -> i32 {
     -((exponent >> 1) + rounds_up as i32)
 }
 
-/// A level so many levels finer than one of [`texel_level`]; at most 30.
-#[inline(always)]
-pub fn texel_finer(level: i32, finer: i32) -> i32 {
-    let there = level + finer;
-    if there > 30 { 30 } else { there }
-}
-
 /// A texel's edge, 2^−level, for levels of [`texel_level`].
 #[inline(always)]
 pub fn texel_size(level: i32) -> f32 {

@@ -59,10 +59,9 @@ impl Program {
                 });
                 let values: Vec<String> = values.collect();
                 format!(
-                    "{} = lookup uv{}{} else {dst}; found: {}",
+                    "{} = lookup uv{} else {dst}; found: {}",
                     values.join(", "),
-                    region.grid.uv_set,
-                    "+".repeat(region.grid.finer.into()),
+                    region.uv_set,
                     region.words.end
                 )
             }

@@ -68,8 +68,7 @@ impl Cached {
         for (chunk, which) in self.missed.chunks(N).enumerate() {
             let mut rows = [[0.0f32; N]; 3];
             for (lane, &k) in which.iter().enumerate() {
-                [rows[0][lane], rows[1][lane], rows[2][lane]] =
-                    texels.centre(k as usize, region.grid);
+                [rows[0][lane], rows[1][lane], rows[2][lane]] = texels.centre(k as usize);
             }
             for (i, row) in rows.iter().enumerate() {
                 core.load(texel + i, row, which.len());

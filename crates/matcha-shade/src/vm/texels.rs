@@ -1,7 +1,6 @@
 //! The virtual texels of a group's points.
 
-use crate::cacheability::Grid;
-use crate::device::texel::{texel_centre, texel_finer, texel_footprint, texel_index, texel_level};
+use crate::device::texel::{texel_centre, texel_footprint, texel_index, texel_level};
 use crate::program::{Program, Region};
 use crate::rows::Rows;
 use glam::Vec2;
@@ -17,7 +16,7 @@ pub struct Texel {
     pub j: i32,
 }
 
-/// The texels of a group's points in one grid.
+/// The texels of a group's points in one UV set.
 #[derive(Clone, Debug, Default)]
 pub struct Texels {
     level: Vec<i32>,
@@ -80,16 +79,11 @@ impl Texels {
         }
     }
 
-    /// Centre (u, v) of a point's texel, and the axes' length of the footprint that it, or the
-    /// coarser one that a grid's finer texels divide, stands for.
-    pub(super) fn centre(&self, point: usize, grid: Grid) -> [f32; 3] {
+    /// Centre (u, v) of a point's texel, and the axes' length of the footprint that it stands for.
+    pub(super) fn centre(&self, point: usize) -> [f32; 3] {
         let Texel { level, i, j } = self.get(point);
         let centre = texel_centre(i, j, level);
-        [
-            centre.x,
-            centre.y,
-            texel_footprint(level - i32::from(grid.finer)),
-        ]
+        [centre.x, centre.y, texel_footprint(level)]
     }
 
     fn find(&mut self, region: &Region, n: usize, inputs: &Rows, level_offset: f32) {
@@ -101,30 +95,29 @@ impl Texels {
             pair.map(|r| &r[..n])
         });
         let scale_squared = (-2.0 * level_offset).exp2();
-        let finer = region.grid.finer.into();
         #[cfg(target_arch = "x86_64")]
         if is_x86_feature_detected!("avx2") {
             // SAFETY: the processor has AVX2.
-            return unsafe { self.find_avx2(from, scale_squared, finer) };
+            return unsafe { self.find_avx2(from, scale_squared) };
         }
-        self.find_each(from, scale_squared, finer);
+        self.find_each(from, scale_squared);
     }
 
     /// With AVX2 rounding down is an instruction.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn find_avx2(&mut self, from: [[&[f32]; 2]; 3], scale_squared: f32, finer: i32) {
-        self.find_each(from, scale_squared, finer);
+    fn find_avx2(&mut self, from: [[&[f32]; 2]; 3], scale_squared: f32) {
+        self.find_each(from, scale_squared);
     }
 
     #[inline(always)]
-    fn find_each(&mut self, [uv, a, b]: [[&[f32]; 2]; 3], scale_squared: f32, finer: i32) {
+    fn find_each(&mut self, [uv, a, b]: [[&[f32]; 2]; 3], scale_squared: f32) {
         let n = self.level.len();
         let [uv, a, b] = [uv, a, b].map(|pair| pair.map(|row| &row[..n]));
         let (i, j) = (&mut self.i[..n], &mut self.j[..n]);
         for (k, to) in self.level.iter_mut().enumerate() {
             let at = |rows: [&[f32]; 2]| Vec2::new(rows[0][k], rows[1][k]);
-            let level = texel_finer(texel_level(at(a), at(b), scale_squared), finer);
+            let level = texel_level(at(a), at(b), scale_squared);
             *to = level;
             i[k] = texel_index(uv[0][k], level);
             j[k] = texel_index(uv[1][k], level);

@@ -126,7 +126,7 @@ impl Entry {
         let program = &compiled.program;
         let cacheable = program.regions().iter().flat_map(|region| {
             region.values.iter().map(|value| Cacheable {
-                uv_set: region.grid.uv_set,
+                uv_set: region.uv_set,
                 encoding: format!("{:?}", value.encoding),
                 cost_ns: value.cost,
             })

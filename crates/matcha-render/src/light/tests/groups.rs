@@ -53,7 +53,7 @@ fn everything() -> LightSet {
         next.transform = place;
         scene.instances.push(next);
     }
-    let world = Some(WorldRadiance::Constant(Vec3::ONE));
+    let world = Some(even_world(1.0));
     LightSet::build(&scene, emission(3.0, Sides::Both), world)
 }
 

@@ -137,15 +137,9 @@ fn black_and_broken_grids_are_no_lights() {
         })
         .is_none()
     );
-    let world = |radiance: Vec3| {
-        LightSet::build(
-            &scene(&[], vec![]),
-            vec![],
-            Some(WorldRadiance::Constant(radiance)),
-        )
-    };
-    assert!(world(Vec3::ZERO).is_empty());
-    assert!(!world(Vec3::ONE).is_empty());
+    let world = |radiance| LightSet::build(&scene(&[], vec![]), vec![], Some(even_world(radiance)));
+    assert!(world(0.0).is_empty());
+    assert!(!world(1.0).is_empty());
 }
 
 /// A point below many bright triangles and under a sun: every kind gets its share.
@@ -161,7 +155,7 @@ fn shares_leave_room_for_everyone() {
         Vec3::new(0.1, 0.0, 5.0),
         Vec3::new(0.0, 0.1, 5.0),
     ]];
-    let world = Some(WorldRadiance::Grid(grid(64, 32, sky)));
+    let world = Some(grid(64, 32, sky));
     let lights = LightSet::build(
         &scene(&triangles, vec![sun]),
         emission(2.0, Sides::Both),
