@@ -4,7 +4,7 @@ from .numbers import number, numbers
 from .trees import tree_in_use
 
 
-def render_settings(scene):
+def render_settings(scene, view_layer):
     """What the author asked of Cycles, with the names of the renderer's own settings."""
     render = scene.render
     cycles = scene.cycles
@@ -13,7 +13,7 @@ def render_settings(scene):
     return {
         "resolution": [max(render.resolution_x * percent // 100, 1), max(render.resolution_y * percent // 100, 1)],
         "pixel_aspect": number(render.pixel_aspect_x / render.pixel_aspect_y),
-        "samples": int(cycles.samples),
+        "samples": samples(scene, view_layer),
         "max_bounces": int(cycles.max_bounces),
         "diffuse_bounces": int(cycles.diffuse_bounces),
         "glossy_bounces": int(cycles.glossy_bounces),
@@ -39,11 +39,22 @@ def render_settings(scene):
     }
 
 
-def world(scene, depsgraph, trees):
+def samples(scene, view_layer):
+    """Samples of a pixel; a view layer may have a number of its own."""
+    asked, own = scene.cycles.samples, view_layer.samples
+    use = scene.cycles.use_layer_samples
+    if own == 0 or use == "IGNORE":
+        return int(asked)
+    return int(min(asked, own) if use == "BOUNDED" else own)
+
+
+def world(scene, view_layer, depsgraph, trees):
     """The world's tree or colour, and who sees it. A scene without one is black."""
-    if scene.world is None:
+    # View layers have worlds of their own since Blender 4.3.
+    used = getattr(view_layer, "world_override", None) or scene.world
+    if used is None:
         return {"color": [0.0, 0.0, 0.0]}
-    data = scene.world.evaluated_get(depsgraph)
+    data = used.evaluated_get(depsgraph)
     cycles = data.cycles
     seen = data.cycles_visibility
     entry = {

@@ -125,6 +125,26 @@ class Scene(SceneTest):
         self.assertEqual(entry["filter"], {"type": "GAUSSIAN", "width": 2.0})
         self.assertEqual(entry["transparent_bounces"], 17)
 
+    def test_view_layers_own_samples_world_and_material(self):
+        self.surface("own")
+        layer, cycles = self.scene.view_layers[0], self.scene.cycles
+        cycles.samples, layer.samples = 100, 16
+        worlds = [bpy.data.worlds.new(name) for name in ("scene's", "layer's")]
+        self.scene.world = worlds[0]
+        layer.material_override, _, _ = self.material("override")
+        if hasattr(layer, "world_override"):
+            layer.world_override = worlds[1]
+        file = self.export()
+        self.assertEqual(file.root["settings"]["samples"], 16)
+        self.assertEqual([m["name"] for m in file.json["materials"]], ["override"])
+        if hasattr(layer, "world_override"):
+            self.assertEqual(file.root["world"]["name"], "layer's")
+        cycles.use_layer_samples = "BOUNDED"
+        layer.samples = 200
+        self.assertEqual(self.export().root["settings"]["samples"], 100)
+        cycles.use_layer_samples = "IGNORE"
+        self.assertEqual(self.export().root["settings"]["samples"], 100)
+
     def test_standard_likeness(self):
         _, color = self.surface()
         color.default_value = (0.25, 0.5, 0.75, 1)
