@@ -40,6 +40,12 @@ class Objects:
             elif kind in UNSUPPORTED:
                 self.report.warning(f"object {instance.object.name}: {kind.lower()} objects are left out")
             self._hair(instance)
+            self._linking(instance.object)
+
+    def _linking(self, obj):
+        linking = getattr(obj, "light_linking", None)
+        if linking and (linking.receiver_collection or linking.blocker_collection):
+            self.report.warning(f"object {obj.name}: light linking is left out; it lights and shadows everything")
 
     def _hair(self, instance):
         obj = instance.object

@@ -1,5 +1,6 @@
 """Render settings and the world."""
 
+from . import camera
 from .numbers import number, numbers
 from .trees import tree_in_use
 
@@ -37,6 +38,18 @@ def render_settings(scene, view_layer):
         },
         "seed": int(cycles.seed),
     }
+
+
+def warn_of_left_out(scene, report):
+    """Says what changes the picture and is not exported."""
+    if scene.render.use_motion_blur:
+        report.warning("motion blur is left out")
+    if scene.render.use_border:
+        report.warning("the render region is left out; the whole picture is rendered")
+    if camera.is_part_of_panorama(scene.camera.data):
+        report.warning("the panorama's range of angles is left out; all around is rendered")
+    if scene.cycles.use_fast_gi:
+        report.warning("fast global illumination is left out; all light is traced")
 
 
 def samples(scene, view_layer):
