@@ -65,7 +65,7 @@ class Objects:
         own = self._own_slots(obj) or worn
         # An object may have fewer or other slots than its data.
         slots = own or (self._material(None),)
-        mesh = self.meshes.add(obj.data, slots)
+        mesh = self.meshes.add(obj.data, slots, [group.name for group in obj.vertex_groups])
         if mesh is None:
             return
         if worn and worn != slots:

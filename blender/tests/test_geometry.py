@@ -56,6 +56,30 @@ class Geometry(SceneTest):
         self.add("quad", mesh)
         np.testing.assert_allclose(self.export().vertex(0, "NORMAL"), [[0.6, 0.8, 0.0]] * 4, atol=1e-3)
 
+    def test_vertex_groups_and_edge_attributes(self):
+        tree, color = self.surface()
+        obj = bpy.data.objects["material"]
+        edges = obj.data.attributes.new("edges", "FLOAT", "EDGE")
+        edges.data.foreach_set("value", [float(0 in edge.vertices) for edge in obj.data.edges])
+        obj.vertex_groups.new(name="other").add([1], 0.75, "REPLACE")
+        obj.vertex_groups.new(name="weight").add([2], 0.25, "REPLACE")
+        mix = tree.nodes.new("ShaderNodeMix")
+        mix.data_type = "RGBA"
+        for name, socket in (("edges", mix.inputs[6]), ("weight", mix.inputs[7])):
+            node = tree.nodes.new("ShaderNodeAttribute")
+            node.attribute_name = name
+            tree.links.new(node.outputs["Color"], socket)
+        tree.links.new(mix.outputs[2], color)
+        file = self.export()
+        (mesh,) = file.json["meshes"]
+        about = {e["name"]: e for e in mesh["extensions"][NAME]["attributes"]}
+        self.assertEqual(set(about), {"edges", "weight"})
+        corners = uv_to_blender(file.vertex(0, "TEXCOORD_0"))
+        found = {name: file.vertex(0, entry["semantic"]).ravel() for name, entry in about.items()}
+        # Both edges of the corner at the origin have 1, one of each of its neighbours.
+        np.testing.assert_allclose(found["edges"], 1.0 - 0.5 * corners.sum(axis=1))
+        np.testing.assert_allclose(found["weight"], 0.25 * corners.prod(axis=1))
+
     def test_only_attributes_that_are_read(self):
         tree, color = self.surface()
         mesh = bpy.data.meshes["material"]
