@@ -124,6 +124,23 @@ class Geometry(SceneTest):
         generated = file.vertex(0, "_GENERATED")[:, :2]
         self.assertEqual(sorted(map(tuple, np.rint(generated * 1000))), [(0, 0), (0, 1000), (1000, 0), (1000, 1000)])
 
+    def test_generated_coordinates_behind_a_group_input_that_nothing_feeds(self):
+        inner = bpy.data.node_groups.new("inner", "ShaderNodeTree")
+        inner.interface.new_socket("Vector", in_out="INPUT", socket_type="NodeSocketVector")
+        inner.interface.new_socket("Color", in_out="OUTPUT", socket_type="NodeSocketColor")
+        source, noise, sink = (
+            inner.nodes.new(kind) for kind in ("NodeGroupInput", "ShaderNodeTexNoise", "NodeGroupOutput")
+        )
+        inner.links.new(source.outputs[0], noise.inputs["Vector"])
+        inner.links.new(noise.outputs["Color"], sink.inputs[0])
+        tree, color = self.surface()
+        use = tree.nodes.new("ShaderNodeGroup")
+        use.node_tree = inner
+        tree.links.new(use.outputs[0], color)
+        group = bpy.data.objects["material"].modifiers.new("bend", "SIMPLE_DEFORM")
+        group.deform_method, group.factor, group.deform_axis = "TAPER", 1.0, "X"
+        self.assertIn("generated", self.export().json["meshes"][0]["extensions"][NAME])
+
     def test_slots_and_materials_of_the_object(self):
         mesh = self.quad()
         red, blue = bpy.data.materials.new("red"), bpy.data.materials.new("blue")

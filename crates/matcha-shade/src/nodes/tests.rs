@@ -3,6 +3,7 @@
 use super::*;
 use crate::closure::ClosureKind;
 use crate::graph::NodeKind;
+use crate::input::InputKind;
 use crate::material::ClosureNode;
 use crate::source::{Link, Property, Socket};
 use std::collections::BTreeMap;
@@ -213,8 +214,64 @@ fn muted_nodes_hand_on_and_reroutes_too() {
         vec![socket("Input", "VALUE", &[0.0])],
         vec![socket("Output", "VALUE", &[])],
     );
-    let links = vec![link([0, 0], [1, 0]), link([1, 0], [2, 1])];
-    assert_eq!(weight(&[emitting(vec![muted, reroute], links)])[0], 7.0);
+    let nodes = vec![muted, reroute, math("ADD", 3.0, 4.0)];
+    let mut links = vec![link([0, 0], [1, 0]), link([1, 0], [3, 1])];
+    // Where nothing comes in, Cycles hands zero on, not the socket's own value.
+    assert_eq!(weight(&[emitting(nodes.clone(), links.clone())]), [0.0; 3]);
+    links.push(link([2, 0], [0, 0]));
+    assert_eq!(weight(&[emitting(nodes, links)])[0], 7.0);
+}
+
+/// A checker texture whose coordinate is linked to a group's input, a muted node or a reroute.
+fn checker_behind(mut source: SourceNode) -> NodeTree {
+    source.outputs = vec![socket("Vector", "VECTOR", &[])];
+    let checker = node(
+        "ShaderNodeTexChecker",
+        vec![
+            socket("Vector", "VECTOR", &[0.0; 3]),
+            socket("Color1", "RGBA", &[1.0; 4]),
+            socket("Color2", "RGBA", &[0.0; 4]),
+            socket("Scale", "VALUE", &[5.0]),
+        ],
+        vec![socket("Color", "RGBA", &[])],
+    );
+    let links = vec![link([0, 0], [1, 0]), link([1, 0], [2, 0])];
+    emitting(vec![source, checker], links)
+}
+
+#[test]
+fn a_coordinate_that_nothing_feeds_is_the_default() {
+    let reads_generated = |trees: &[NodeTree]| {
+        let (material, _) = lowered(trees).expect("it lowers");
+        material.graph.nodes().iter().any(|node| {
+            matches!(node.kind, NodeKind::Input(input) if input.kind == InputKind::Generated)
+        })
+    };
+    let vector = || vec![socket("Vector", "VECTOR", &[0.5; 3])];
+    let mut muted = node("ShaderNodeMapping", vector(), vec![]);
+    muted.muted = true;
+    muted.internal_links = vec![[0, 0]];
+    assert!(reads_generated(&[checker_behind(muted)]));
+    let reroute = node("NodeReroute", vector(), vec![]);
+    assert!(reads_generated(&[checker_behind(reroute)]));
+
+    let mut inner = checker_behind(node("NodeGroupInput", vec![], vec![]));
+    inner.nodes[3] = node(
+        "NodeGroupOutput",
+        vec![socket("Shader", "SHADER", &[])],
+        vec![],
+    );
+    let mut group = node(
+        "ShaderNodeGroup",
+        vector(),
+        vec![socket("Shader", "SHADER", &[])],
+    );
+    group.tree = Some(1);
+    let mut outer = emitting(vec![group, math("ADD", 1.0, 1.0)], vec![]);
+    outer.links = vec![link([0, 0], [3, 0])];
+    assert!(reads_generated(&[outer.clone(), inner.clone()]));
+    outer.links.push(link([1, 0], [0, 0]));
+    assert!(!reads_generated(&[outer, inner]));
 }
 
 #[test]
