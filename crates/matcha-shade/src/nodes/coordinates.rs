@@ -108,6 +108,11 @@ fn reflection(l: &mut Lowering) -> NodeId {
 /// `ShaderNodeUVMap`.
 pub(super) fn uv_map(l: &mut Lowering, at: At, _output: &str) -> Lowered<Value> {
     let name = l.text(at, "uv_map", "");
+    if !name.is_empty() && !l.names.uv.contains(&name) {
+        // What Cycles gives for a UV map that no mesh has.
+        l.substitute(at, &format!("the missing UV map \"{name}\""), "zero");
+        return Ok(l.zero("VECTOR"));
+    }
     let set = uv_set(l, at, &name);
     Ok(Value::Vector(uv(l, set)))
 }

@@ -240,6 +240,17 @@ fn checker_behind(mut source: SourceNode) -> NodeTree {
 }
 
 #[test]
+fn a_missing_uv_map_is_zero() {
+    let mut map = node("ShaderNodeUVMap", vec![], vec![socket("UV", "VECTOR", &[])]);
+    let name = Property::Text("Second".into());
+    map.props.insert("uv_map".into(), name);
+    assert_eq!(
+        weight(&[emitting(vec![map], vec![link([0, 0], [1, 1])])]),
+        [0.0; 3]
+    );
+}
+
+#[test]
 fn a_coordinate_that_nothing_feeds_is_the_default() {
     let reads_generated = |trees: &[NodeTree]| {
         let (material, _) = lowered(trees).expect("it lowers");
