@@ -383,6 +383,7 @@ fn not_honoured() -> Vec<(SourceNode, &'static str)> {
         (make("ShaderNodeBsdfMetallic", shader, &[("Base Color", "RGBA", 0.5), ("Roughness", "VALUE", 0.2)], &[("distribution", "GGX")]), "ShaderNodeBsdfMetallic"),
         (make("ShaderNodeBsdfToon", shader, &[("Color", "RGBA", 0.5)], &[]), "ShaderNodeBsdfToon"),
         (make("ShaderNodeBsdfGlass", shader, &film, &[("distribution", "GGX")]), "a thin film on glass"),
+        (make("ShaderNodeBsdfPrincipled", shader, &film[3..], &[("distribution", "GGX"), ("subsurface_method", "BURLEY")]), "a thin film on ShaderNodeBsdfPrincipled"),
         (make("ShaderNodeSubsurfaceScattering", ("BSSRDF", "SHADER"), &[("Color", "RGBA", 0.5), ("Scale", "VALUE", 1.0), ("Radius", "VECTOR", 1.0)], &[]), "ShaderNodeSubsurfaceScattering"),
         (make("ShaderNodeVolumeScatter", ("Volume", "SHADER"), &[], &[]), "ShaderNodeVolumeScatter"),
         (make("ShaderNodeTexImage", color, &[], &[]), "an image texture without an image"),
