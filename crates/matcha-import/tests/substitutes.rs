@@ -79,6 +79,10 @@ const CASES: &[Case] = &[
         "colour space ACEScg is not supported (image \"wood.png\"): read as sRGB"),
     (cycles, |f| extension(f)["images"][0]["alpha_mode"] = json!("SQUARE"),
         "alpha mode SQUARE is not known (image \"wood.png\"): read as straight alpha"),
+    (cycles, |f| f.json["materials"][0]["extensions"]["MATCHA_cycles"]["use_transparent_shadow"] = json!(false),
+        "a material without transparent shadows is not supported (material \"Oak\"): where it is transparent, its shadow is as well"),
+    (cycles, |f| f.json["materials"][0]["extensions"]["MATCHA_cycles"]["use_bump_map_correction"] = json!(false),
+        "a material without bump map correction is not supported (material \"Oak\"): its normals are corrected"),
 ];
 
 #[test]
