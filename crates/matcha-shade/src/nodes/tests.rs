@@ -240,6 +240,27 @@ fn checker_behind(mut source: SourceNode) -> NodeTree {
 }
 
 #[test]
+fn what_a_light_reads_of_a_surface_is_zero_and_said() {
+    for (kind, output) in [
+        ("ShaderNodeTexCoord", "UV"),
+        ("ShaderNodeTexCoord", "Object"),
+        ("ShaderNodeNewGeometry", "Parametric"),
+        ("ShaderNodeObjectInfo", "Random"),
+    ] {
+        let source = node(kind, vec![], vec![socket(output, "VECTOR", &[])]);
+        let mut tree = emitting(vec![source], vec![link([0, 0], [1, 1])]);
+        tree.nodes[2].kind = "ShaderNodeOutputLight".into();
+        let names = Names {
+            uv: &[String::new()],
+            attributes: &[],
+        };
+        let (_, report) = lower(&[tree], 0, names, "Lamp", MaterialKind::Light).expect(kind);
+        let said: Vec<String> = report.items.iter().map(|item| item.kind.clone()).collect();
+        assert_eq!(said, [format!("the output {output} of {kind} in a light")]);
+    }
+}
+
+#[test]
 fn a_missing_uv_map_is_zero() {
     let mut map = node("ShaderNodeUVMap", vec![], vec![socket("UV", "VECTOR", &[])]);
     let name = Property::Text("Second".into());
