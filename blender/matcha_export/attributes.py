@@ -28,16 +28,38 @@ def read(attribute):
     return flat.astype(np.float32).reshape(count, width)
 
 
-def on_corners(attribute, corner_vertices, corner_faces):
+def on_corners(mesh, attribute, corner_vertices, corner_faces):
     """The attribute at each face corner, or None."""
     values = read(attribute)
     if values is None or not len(values):
         return None
+    if attribute.domain == "EDGE":
+        return at_vertices(mesh, values)[corner_vertices]
     if attribute.domain == "POINT":
         return values[corner_vertices]
     if attribute.domain == "FACE":
         return values[corner_faces]
     return values if attribute.domain == "CORNER" else None
+
+
+def at_vertices(mesh, of_edges):
+    """What Cycles makes of an edge attribute: each vertex has the mean of its edges."""
+    ends = np.empty(2 * len(mesh.edges), dtype=np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    total = np.zeros((len(mesh.vertices), of_edges.shape[1]))
+    np.add.at(total, ends, np.repeat(of_edges, 2, axis=0))
+    count = np.bincount(ends, minlength=len(mesh.vertices))
+    return (total / np.maximum(count, 1)[:, None]).astype(np.float32)
+
+
+def weights(mesh, group):
+    """A vertex group, by its place in the object's list, as a number at each vertex."""
+    values = np.zeros((len(mesh.vertices), 1), dtype=np.float32)
+    for vertex in mesh.vertices:
+        for member in vertex.groups:
+            if member.group == group:
+                values[vertex.index] = member.weight
+    return values
 
 
 def meaning(attribute):

@@ -7,13 +7,10 @@ import numpy as np
 
 from . import axes
 from .numbers import number, numbers
-from .report import ExportError
 
 
 def node(glb, scene, depsgraph):
     """Appends camera and node of the active camera; returns the node's index."""
-    if scene.camera is None or scene.camera.type != "CAMERA":
-        raise ExportError(f"The scene '{scene.name}' has no camera; add one or make one active.")
     obj = scene.camera.evaluated_get(depsgraph)
     # Cameras ignore scale.
     translation, rotation, _ = obj.matrix_world.decompose()
@@ -47,6 +44,16 @@ def panorama(camera):
     """Blender 5 moved the type out of Cycles' settings."""
     owner = camera if hasattr(camera, "panorama_type") else camera.cycles
     return owner.panorama_type
+
+
+def is_part_of_panorama(camera):
+    """True for an equirectangular camera that sees less than all around."""
+    if camera.type != "PANO" or panorama(camera) != "EQUIRECTANGULAR":
+        return False
+    owner = camera if hasattr(camera, "panorama_type") else camera.cycles
+    tall = owner.latitude_max - owner.latitude_min
+    wide = owner.longitude_max - owner.longitude_min
+    return not math.isclose(tall, math.pi, rel_tol=1e-4) or not math.isclose(wide, math.tau, rel_tol=1e-4)
 
 
 def depth_of_field(obj, dof):

@@ -26,8 +26,11 @@ def field(collection, name, width, dtype=np.float32):
     return flat.reshape(-1, width) if width > 1 else flat
 
 
-def extract(mesh, slot_count, needs, warn):
-    """The geometry of an evaluated mesh, or None where it has no triangle."""
+def extract(mesh, slot_count, needs, groups, warn):
+    """The geometry of an evaluated mesh, or None where it has no triangle.
+
+    `groups` are the names of its object's vertex groups.
+    """
     mesh.calc_loop_triangles()
     if not len(mesh.loop_triangles):
         return None
@@ -39,7 +42,7 @@ def extract(mesh, slot_count, needs, warn):
 
     normals = unit(field(mesh.corner_normals, "vector", 3))
     uvs = [(layer.name, uv_corners(layer)) for layer in mesh.uv_layers]
-    extras = wanted(mesh, needs, vertices, faces)
+    extras = wanted(mesh, needs, groups, vertices, faces)
     columns = [vertices[:, None], normals, *(a for _, a in uvs), *(a for _, _, a in extras)]
     keep, inverse = distinct(columns)
 
@@ -78,18 +81,22 @@ def unit(vectors):
     return out
 
 
-def wanted(mesh, needs, vertices, faces):
-    """The attributes, other than UV layers, that the mesh's materials read."""
+def wanted(mesh, needs, groups, vertices, faces):
+    """The attributes, other than UV layers, that the mesh's materials read; vertex groups are some."""
     names = needs.attributes - {layer.name for layer in mesh.uv_layers}
     if needs.active_color and render_color(mesh):
         names = names | {render_color(mesh)}
     found = []
     for name in sorted(names - {""}):
         attribute = mesh.attributes.get(name)
-        array = attribute and attributes.on_corners(attribute, vertices, faces)
+        if attribute is not None:
+            kind, array = attributes.meaning(attribute), attributes.on_corners(mesh, attribute, vertices, faces)
+        elif name in groups:
+            kind, array = "FLOAT", attributes.weights(mesh, groups.index(name))[vertices]
+        else:
+            continue
         if array is not None:
-            array = np.nan_to_num(array, posinf=0.0, neginf=0.0)
-            found.append((name, attributes.meaning(attribute), array))
+            found.append((name, kind, np.nan_to_num(array, posinf=0.0, neginf=0.0)))
     return found
 
 

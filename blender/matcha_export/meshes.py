@@ -17,22 +17,22 @@ class Meshes:
         self._known = {}
         self._by_content = {}
 
-    def add(self, mesh, slots):
+    def add(self, mesh, slots, groups):
         """Index of a glTF mesh, or None where there is nothing to see.
 
-        `slots` are the material indices of the mesh's own slots.
+        `slots` are the material indices of the mesh's own slots, `groups` the names of its vertex groups.
         """
         key = (mesh.as_pointer(), slots)
         if key not in self._known:
-            self._known[key] = self._store(mesh, slots)
+            self._known[key] = self._store(mesh, slots, groups)
         return self._known[key]
 
-    def _store(self, mesh, slots):
+    def _store(self, mesh, slots, groups):
         def warn(text):
             self.report.warning(f"mesh {mesh.name}: {text}")
 
         needs = self.materials.needs(slots)
-        parts = geometry.extract(mesh, len(slots), needs, warn)
+        parts = geometry.extract(mesh, len(slots), needs, groups, warn)
         if parts is None:
             return None
         semantics, about = self._accessors(parts)

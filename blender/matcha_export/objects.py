@@ -18,11 +18,14 @@ class Objects:
         self.lights = lights.Lights(glb, trees, report)
         self.report = report
         self.view_layer = view_layer
+        self.override = None
         self.placements = []
         self.light_nodes = []
 
     def collect(self, depsgraph):
         """Visits all instances once; Blender reuses each of them for the next."""
+        override = self.view_layer.material_override
+        self.override = override and override.evaluated_get(depsgraph)
         total = max(len(depsgraph.object_instances), 1)
         for number, instance in enumerate(depsgraph.object_instances):
             self.report.progress(0.05 + 0.85 * number / total, "meshes")
@@ -37,6 +40,12 @@ class Objects:
             elif kind in UNSUPPORTED:
                 self.report.warning(f"object {instance.object.name}: {kind.lower()} objects are left out")
             self._hair(instance)
+            self._linking(instance.object)
+
+    def _linking(self, obj):
+        linking = getattr(obj, "light_linking", None)
+        if linking and (linking.receiver_collection or linking.blocker_collection):
+            self.report.warning(f"object {obj.name}: light linking is left out; it lights and shadows everything")
 
     def _hair(self, instance):
         obj = instance.object
@@ -52,11 +61,11 @@ class Objects:
         entry = visibility.about(instance, self.view_layer)
         if not any(entry["visibility"].values()):
             return
-        worn = tuple(self.materials.add(slot.material) for slot in obj.material_slots)
+        worn = tuple(self._material(slot.material) for slot in obj.material_slots)
         own = self._own_slots(obj) or worn
         # An object may have fewer or other slots than its data.
-        slots = own or (self.materials.add(None),)
-        mesh = self.meshes.add(obj.data, slots)
+        slots = own or (self._material(None),)
+        mesh = self.meshes.add(obj.data, slots, [group.name for group in obj.vertex_groups])
         if mesh is None:
             return
         if worn and worn != slots:
@@ -66,4 +75,8 @@ class Objects:
 
     def _own_slots(self, obj):
         slots = getattr(obj.data, "materials", None)
-        return tuple(self.materials.add(material) for material in slots) if slots else ()
+        return tuple(self._material(material) for material in slots) if slots else ()
+
+    def _material(self, material):
+        """Index of a slot's material; a view layer may put its own in place of all."""
+        return self.materials.add(self.override or material)

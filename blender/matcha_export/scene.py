@@ -22,14 +22,15 @@ def export(path, report, scene=None):
     scene = scene or bpy.context.scene
     if scene is None:
         raise ExportError("The file holds no scene.")
-    if scene.camera is None:
+    if scene.camera is None or scene.camera.type != "CAMERA":
         raise ExportError(f"The scene '{scene.name}' has no camera; add one or make one active.")
     if not hasattr(scene, "cycles"):
         raise ExportError("Blender's Cycles add-on is switched off; the exporter reads its settings.")
     if scene.render.engine != CYCLES:
         report.warning(f"the scene was made for {scene.render.engine}, not for Cycles; colours may differ")
-    asked = settings.render_settings(scene)
     view_layer = used_layer(scene, report)
+    asked = settings.render_settings(scene, view_layer)
+    settings.warn_of_left_out(scene, report)
     report.progress(0.0, "evaluating")
 
     def task(depsgraph):
@@ -65,7 +66,7 @@ def build(depsgraph, scene, view_layer, asked, report):
     objects = Objects(glb, meshes, materials, trees, report, view_layer)
 
     roots = [camera.node(glb, scene, depsgraph)]
-    around = settings.world(scene, depsgraph, trees)
+    around = settings.world(scene, view_layer, depsgraph, trees)
     objects.collect(depsgraph)
     roots += objects.light_nodes
     roots += instancing.nodes(glb, objects.placements)

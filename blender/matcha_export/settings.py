@@ -1,10 +1,11 @@
 """Render settings and the world."""
 
+from . import camera
 from .numbers import number, numbers
 from .trees import tree_in_use
 
 
-def render_settings(scene):
+def render_settings(scene, view_layer):
     """What the author asked of Cycles, with the names of the renderer's own settings."""
     render = scene.render
     cycles = scene.cycles
@@ -13,7 +14,7 @@ def render_settings(scene):
     return {
         "resolution": [max(render.resolution_x * percent // 100, 1), max(render.resolution_y * percent // 100, 1)],
         "pixel_aspect": number(render.pixel_aspect_x / render.pixel_aspect_y),
-        "samples": int(cycles.samples),
+        "samples": samples(scene, view_layer),
         "max_bounces": int(cycles.max_bounces),
         "diffuse_bounces": int(cycles.diffuse_bounces),
         "glossy_bounces": int(cycles.glossy_bounces),
@@ -39,11 +40,34 @@ def render_settings(scene):
     }
 
 
-def world(scene, depsgraph, trees):
+def warn_of_left_out(scene, report):
+    """Says what changes the picture and is not exported."""
+    if scene.render.use_motion_blur:
+        report.warning("motion blur is left out")
+    if scene.render.use_border:
+        report.warning("the render region is left out; the whole picture is rendered")
+    if camera.is_part_of_panorama(scene.camera.data):
+        report.warning("the panorama's range of angles is left out; all around is rendered")
+    if scene.cycles.use_fast_gi:
+        report.warning("fast global illumination is left out; all light is traced")
+
+
+def samples(scene, view_layer):
+    """Samples of a pixel; a view layer may have a number of its own."""
+    asked, own = scene.cycles.samples, view_layer.samples
+    use = scene.cycles.use_layer_samples
+    if own == 0 or use == "IGNORE":
+        return int(asked)
+    return int(min(asked, own) if use == "BOUNDED" else own)
+
+
+def world(scene, view_layer, depsgraph, trees):
     """The world's tree or colour, and who sees it. A scene without one is black."""
-    if scene.world is None:
+    # View layers have worlds of their own since Blender 4.3.
+    used = getattr(view_layer, "world_override", None) or scene.world
+    if used is None:
         return {"color": [0.0, 0.0, 0.0]}
-    data = scene.world.evaluated_get(depsgraph)
+    data = used.evaluated_get(depsgraph)
     cycles = data.cycles
     seen = data.cycles_visibility
     entry = {

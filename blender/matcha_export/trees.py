@@ -9,6 +9,7 @@ from .numbers import columns
 
 GROUP_OUTPUT = "NodeGroupOutput"
 IMAGE_NODES = {"ShaderNodeTexImage", "ShaderNodeTexEnvironment"}
+HAND_ON = {"NodeGroupInput", "NodeReroute", "ShaderNodeGroup"}
 RAMP_NODES = {"ShaderNodeValToRGB"}
 CURVE_NODES = {"ShaderNodeRGBCurve", "ShaderNodeVectorCurve", "ShaderNodeFloatCurve"}
 
@@ -70,7 +71,7 @@ class Trees:
         links = [link for link in node_tree.links if carries(link)]
         kept = upstream(node_tree, links, output)
         place = {node.as_pointer(): i for i, node in enumerate(kept)}
-        linked = {link.to_socket.as_pointer() for link in links}
+        linked = {link.to_socket.as_pointer() for link in links if not hands_on(link.from_node)}
         entry["nodes"] = [self._node(node, name, needs, linked) for node in kept]
         ports = Ports(kept)
         entry["links"] = [
@@ -173,6 +174,11 @@ class Ports:
     def input(self, link, place):
         """(node, socket) where the link ends."""
         return [place[link.to_node.as_pointer()], self._inputs[link.to_socket.as_pointer()]]
+
+
+def hands_on(node):
+    """True for nodes behind which nothing may be linked: a default then stays in place."""
+    return node.mute or node.bl_idname in HAND_ON
 
 
 def internal_links(node):

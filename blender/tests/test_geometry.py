@@ -56,6 +56,30 @@ class Geometry(SceneTest):
         self.add("quad", mesh)
         np.testing.assert_allclose(self.export().vertex(0, "NORMAL"), [[0.6, 0.8, 0.0]] * 4, atol=1e-3)
 
+    def test_vertex_groups_and_edge_attributes(self):
+        tree, color = self.surface()
+        obj = bpy.data.objects["material"]
+        edges = obj.data.attributes.new("edges", "FLOAT", "EDGE")
+        edges.data.foreach_set("value", [float(0 in edge.vertices) for edge in obj.data.edges])
+        obj.vertex_groups.new(name="other").add([1], 0.75, "REPLACE")
+        obj.vertex_groups.new(name="weight").add([2], 0.25, "REPLACE")
+        mix = tree.nodes.new("ShaderNodeMix")
+        mix.data_type = "RGBA"
+        for name, socket in (("edges", mix.inputs[6]), ("weight", mix.inputs[7])):
+            node = tree.nodes.new("ShaderNodeAttribute")
+            node.attribute_name = name
+            tree.links.new(node.outputs["Color"], socket)
+        tree.links.new(mix.outputs[2], color)
+        file = self.export()
+        (mesh,) = file.json["meshes"]
+        about = {e["name"]: e for e in mesh["extensions"][NAME]["attributes"]}
+        self.assertEqual(set(about), {"edges", "weight"})
+        corners = uv_to_blender(file.vertex(0, "TEXCOORD_0"))
+        found = {name: file.vertex(0, entry["semantic"]).ravel() for name, entry in about.items()}
+        # Both edges of the corner at the origin have 1, one of each of its neighbours.
+        np.testing.assert_allclose(found["edges"], 1.0 - 0.5 * corners.sum(axis=1))
+        np.testing.assert_allclose(found["weight"], 0.25 * corners.prod(axis=1))
+
     def test_only_attributes_that_are_read(self):
         tree, color = self.surface()
         mesh = bpy.data.meshes["material"]
@@ -99,6 +123,23 @@ class Geometry(SceneTest):
         self.assertEqual(file.json["meshes"][0]["extensions"][NAME]["generated"], "_GENERATED")
         generated = file.vertex(0, "_GENERATED")[:, :2]
         self.assertEqual(sorted(map(tuple, np.rint(generated * 1000))), [(0, 0), (0, 1000), (1000, 0), (1000, 1000)])
+
+    def test_generated_coordinates_behind_a_group_input_that_nothing_feeds(self):
+        inner = bpy.data.node_groups.new("inner", "ShaderNodeTree")
+        inner.interface.new_socket("Vector", in_out="INPUT", socket_type="NodeSocketVector")
+        inner.interface.new_socket("Color", in_out="OUTPUT", socket_type="NodeSocketColor")
+        source, noise, sink = (
+            inner.nodes.new(kind) for kind in ("NodeGroupInput", "ShaderNodeTexNoise", "NodeGroupOutput")
+        )
+        inner.links.new(source.outputs[0], noise.inputs["Vector"])
+        inner.links.new(noise.outputs["Color"], sink.inputs[0])
+        tree, color = self.surface()
+        use = tree.nodes.new("ShaderNodeGroup")
+        use.node_tree = inner
+        tree.links.new(use.outputs[0], color)
+        group = bpy.data.objects["material"].modifiers.new("bend", "SIMPLE_DEFORM")
+        group.deform_method, group.factor, group.deform_axis = "TAPER", 1.0, "X"
+        self.assertIn("generated", self.export().json["meshes"][0]["extensions"][NAME])
 
     def test_slots_and_materials_of_the_object(self):
         mesh = self.quad()

@@ -25,9 +25,10 @@ SCHEMA = os.path.join(HERE, "..", "..", "docs", "gltf-extension", "MATCHA_cycles
 
 class Scene(SceneTest):
     def test_no_camera(self):
-        self.scene.camera = None
-        with self.assertRaisesRegex(ExportError, "has no camera"):
-            scene.export(os.path.join(self.folder, "scene.glb"), Report())
+        for no_camera in (None, self.add("empty", None), self.add("lamp", bpy.data.lights.new("lamp", "SPOT"))):
+            self.scene.camera = no_camera
+            with self.assertRaisesRegex(ExportError, "has no camera"):
+                scene.export(os.path.join(self.folder, "scene.glb"), Report())
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_folder_that_does_not_exist(self):
@@ -126,6 +127,43 @@ class Scene(SceneTest):
         self.assertEqual(entry["filter"], {"type": "GAUSSIAN", "width": 2.0})
         self.assertEqual(entry["transparent_bounces"], 17)
         self.assertEqual(entry["min_bounces"], 3)
+
+    def test_view_layers_own_samples_world_and_material(self):
+        self.surface("own")
+        layer, cycles = self.scene.view_layers[0], self.scene.cycles
+        cycles.samples, layer.samples = 100, 16
+        worlds = [bpy.data.worlds.new(name) for name in ("scene's", "layer's")]
+        self.scene.world = worlds[0]
+        layer.material_override, _, _ = self.material("override")
+        if hasattr(layer, "world_override"):
+            layer.world_override = worlds[1]
+        file = self.export()
+        self.assertEqual(file.root["settings"]["samples"], 16)
+        self.assertEqual([m["name"] for m in file.json["materials"]], ["override"])
+        if hasattr(layer, "world_override"):
+            self.assertEqual(file.root["world"]["name"], "layer's")
+        cycles.use_layer_samples = "BOUNDED"
+        layer.samples = 200
+        self.assertEqual(self.export().root["settings"]["samples"], 100)
+        cycles.use_layer_samples = "IGNORE"
+        self.assertEqual(self.export().root["settings"]["samples"], 100)
+
+    def test_what_changes_the_picture_and_is_left_out_is_said(self):
+        self.assertEqual(self.export().warnings, [])
+        self.scene.render.use_motion_blur = True
+        self.scene.render.use_border = True
+        self.scene.cycles.use_fast_gi = True
+        camera = self.camera.data
+        camera.type = "PANO"
+        owner = camera if hasattr(camera, "panorama_type") else camera.cycles
+        owner.panorama_type, owner.latitude_min = "EQUIRECTANGULAR", -0.5
+        lamp = self.add("lamp", bpy.data.lights.new("lamp", "POINT"))
+        if hasattr(lamp, "light_linking"):
+            lamp.light_linking.receiver_collection = bpy.data.collections.new("lit")
+        said = " ".join(self.export().warnings)
+        for what in ("motion blur", "render region", "fast global illumination", "range of angles"):
+            self.assertIn(what, said)
+        self.assertEqual("light linking" in said, hasattr(lamp, "light_linking"))
 
     def test_standard_likeness(self):
         _, color = self.surface()

@@ -104,7 +104,7 @@ pub fn load(
         .unwrap_or_default();
     for warning in warnings {
         let what = ReportKind::Feature(format!("the exporter says: {warning}"));
-        imported.report.add(what, "", "exported without it");
+        imported.report.add(what, "", "");
     }
     imported.report.check(options.strict, path)?;
     Ok(imported)

@@ -50,7 +50,7 @@ pub struct ReportItem {
     pub kind: ReportKind,
     /// Where it occurred first: material and node, mesh, or file part.
     pub subject: String,
-    /// What is rendered in its place.
+    /// What is rendered in its place; empty where the kind says so itself.
     pub substitute: String,
     /// How often it occurred.
     pub count: u64,
@@ -64,6 +64,9 @@ impl fmt::Display for ReportItem {
             (true, n) => write!(f, " ({n} times)")?,
             (false, 0 | 1) => write!(f, " ({})", self.subject)?,
             (false, n) => write!(f, " (first: {}; {n} times)", self.subject)?,
+        }
+        if self.substitute.is_empty() {
+            return Ok(());
         }
         write!(f, ": {}", self.substitute)
     }
@@ -171,6 +174,17 @@ mod tests {
         );
         assert!(report.check(false, Path::new("a")).is_ok());
         assert!(report.check(true, Path::new("a")).is_err());
+    }
+
+    #[test]
+    fn a_kind_that_names_its_substitute_stands_alone() {
+        let mut report = Report::default();
+        report.add(
+            ReportKind::Feature("motion blur is left out".into()),
+            "",
+            "",
+        );
+        assert_eq!(report.to_string(), "motion blur is left out");
     }
 
     #[test]

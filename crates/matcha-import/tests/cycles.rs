@@ -10,6 +10,23 @@ use matcha_render::scene::{
 use serde_json::{Value, json};
 
 #[test]
+fn the_files_format_says_whether_colour_is_multiplied_by_alpha() {
+    let alpha = |mode: &str| {
+        let mut file = cycles();
+        extension(&mut file)["images"][0]["alpha_mode"] = json!(mode);
+        file.load().unwrap().scene.images[0].alpha
+    };
+    assert_eq!(alpha("STRAIGHT"), AlphaMode::Straight);
+    assert_eq!(
+        alpha("PREMUL"),
+        AlphaMode::Straight,
+        "as Cycles reads a PNG"
+    );
+    assert_eq!(alpha("NONE"), AlphaMode::None);
+    assert_eq!(alpha("CHANNEL_PACKED"), AlphaMode::ChannelPacked);
+}
+
+#[test]
 fn everything_arrives() {
     let imported = cycles().load().unwrap();
     assert_eq!(imported.report.items(), [], "nothing is substituted");

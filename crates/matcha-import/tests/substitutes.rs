@@ -73,12 +73,20 @@ const CASES: &[Case] = &[
         "shadow catchers are not supported (nodes[0], object \"Board\"): rendered as an ordinary object"),
     (cycles, |f| set(f, 1, "light", "portal", json!(true)),
         "light portals are not supported (light \"Area\"): left out"),
+    (cycles, |f| set(f, 1, "light", "type", json!("SPOT")),
+        "spot lights of uneven scale are not supported (light \"Area\"): its cone is round"),
+    (cycles, |f| { f.json["nodes"][0]["scale"] = json!([1, 2, 1]); f.json["nodes"][1]["rotation"] = json!([0.38268343, 0, 0, 0.92387953]); },
+        "sheared area lights are not supported (light \"Area\"): its sides are perpendicular"),
     (cycles, |f| { set(f, 2, "camera", "type", json!("PANO")); set(f, 2, "camera", "panorama", json!("FISHEYE_EQUIDISTANT")); },
         "panoramas of type FISHEYE_EQUIDISTANT are not supported (camera \"\"): rendered as a full equirectangular one"),
     (cycles, |f| extension(f)["images"][0]["colorspace"] = json!("ACEScg"),
         "colour space ACEScg is not supported (image \"wood.png\"): read as sRGB"),
     (cycles, |f| extension(f)["images"][0]["alpha_mode"] = json!("SQUARE"),
         "alpha mode SQUARE is not known (image \"wood.png\"): read as straight alpha"),
+    (cycles, |f| f.json["materials"][0]["extensions"]["MATCHA_cycles"]["use_transparent_shadow"] = json!(false),
+        "a material without transparent shadows is not supported (material \"Oak\"): where it is transparent, its shadow is as well"),
+    (cycles, |f| f.json["materials"][0]["extensions"]["MATCHA_cycles"]["use_bump_map_correction"] = json!(false),
+        "a material without bump map correction is not supported (material \"Oak\"): its normals are corrected"),
 ];
 
 #[test]

@@ -16,7 +16,7 @@ use crate::plain::hierarchy::{self, Placed};
 use crate::plain::material::Materials;
 use crate::plain::names::Names;
 use crate::plain::texture::Textures;
-use crate::report::Report;
+use crate::report::{Report, ReportKind};
 use matcha_render::scene::{Material, Scene, Shader};
 use serde::Deserialize;
 use serde_json::{Map, Value};
@@ -170,6 +170,9 @@ fn build_materials<'a>(
 ) -> Checked<Vec<Material>> {
     let mut list = Vec::with_capacity(extensions.len());
     for (m, extension) in extensions.into_iter().enumerate() {
+        if let Some(extension) = &extension {
+            report_switches(extension, &material_name(document, m), report);
+        }
         list.push(match extension {
             Some(extension) => Material {
                 name: material_name(document, m),
@@ -181,4 +184,24 @@ fn build_materials<'a>(
         });
     }
     Ok(list)
+}
+
+/// Switches of a material that are always on here.
+fn report_switches(material: &schema::Material, name: &str, report: &mut Report) {
+    let place = format!("material \"{name}\"");
+    let mut add = |what: &str, substitute: &str| {
+        report.add(ReportKind::Feature(what.into()), &place, substitute);
+    };
+    if !material.use_transparent_shadow {
+        add(
+            "a material without transparent shadows is not supported",
+            "where it is transparent, its shadow is as well",
+        );
+    }
+    if !material.use_bump_map_correction {
+        add(
+            "a material without bump map correction is not supported",
+            "its normals are corrected",
+        );
+    }
 }

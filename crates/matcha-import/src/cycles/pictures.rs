@@ -2,7 +2,7 @@
 
 use super::schema;
 use crate::file::Document;
-use crate::picture::{Request, Source};
+use crate::picture::{self, Request, Source};
 use crate::plain::texture;
 use crate::report::{Report, ReportKind};
 use matcha_render::scene::{AlphaMode, ColorSpace};
@@ -21,11 +21,29 @@ pub(super) fn request<'a>(
         },
         (None, None) => Source::Lost("Blender could not find it".into()),
     };
+    let alpha = alpha(image, report);
     Request {
         name: image.name.clone(),
+        alpha: alpha_of_file(&source, alpha),
         source,
         color_space: color_space(image, report),
-        alpha: alpha(image, report),
+    }
+}
+
+/// Cycles has the file's format say whether colour is multiplied by alpha already, not the
+/// image's setting: OpenEXR always is, PNG never.
+fn alpha_of_file(source: &Source<'_>, asked: AlphaMode) -> AlphaMode {
+    match (source, asked) {
+        (Source::Bytes(bytes), AlphaMode::Straight | AlphaMode::Premultiplied) => {
+            if bytes.starts_with(picture::EXR_MAGIC) {
+                AlphaMode::Premultiplied
+            } else if bytes.starts_with(picture::PNG_MAGIC) {
+                AlphaMode::Straight
+            } else {
+                asked
+            }
+        }
+        _ => asked,
     }
 }
 

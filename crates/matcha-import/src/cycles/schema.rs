@@ -39,6 +39,10 @@ pub(super) struct Material {
     pub pass_index: f32,
     #[serde(default)]
     pub emission_sampling: Option<String>,
+    #[serde(default = "yes")]
+    pub use_transparent_shadow: bool,
+    #[serde(default = "yes")]
+    pub use_bump_map_correction: bool,
 }
 
 /// Of a mesh.

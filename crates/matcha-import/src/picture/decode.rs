@@ -8,7 +8,10 @@ use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-const EXR_MAGIC: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
+/// How OpenEXR files begin.
+pub(crate) const EXR_MAGIC: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
+/// How PNG files begin.
+pub(crate) const PNG_MAGIC: &[u8] = b"\x89PNG";
 
 /// Decodes bytes of any supported format. The decoders are other people's and meet
 /// files that nobody checked, so a panic in one of them counts as an unreadable picture.

@@ -3,6 +3,8 @@
 mod decode;
 mod exr_file;
 
+pub(crate) use decode::{EXR_MAGIC, PNG_MAGIC};
+
 use crate::Progress;
 use crate::budget::Budget;
 use crate::error::{Checked, Fault};

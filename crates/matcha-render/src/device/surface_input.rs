@@ -219,11 +219,12 @@ pub fn surface_window(view: CameraView, point: &SurfacePoint, part: u32) -> Vec3
     }
 }
 
-/// Barycentric coordinates.
+/// Barycentric coordinates: weights of the first and the second corner, as Cycles has them.
 #[inline(always)]
 pub fn surface_parametric(point: &SurfacePoint, part: u32) -> Vec2 {
     let blend = surface_blend(point, part);
-    vec2(blend.weights.x, blend.weights.y)
+    let first = surface_linear(blend, 1.0, 0.0, 0.0);
+    vec2(first, blend.weights.x)
 }
 
 /// A quantity that needs no more than the point itself and the camera, by its code, and those of

@@ -227,6 +227,18 @@ fn values_are_those_of_the_corners() {
 }
 
 #[test]
+fn parametric_is_the_weight_of_the_first_two_corners() {
+    let scene = scene(Affine3A::IDENTITY);
+    // In the first triangle: (0, 0), (1, 0), (1, 1).
+    let point = hit_from(&scene, Vec3::new(0.7, 0.2, 3.0), Vec3::NEG_Z);
+    let found = &rows_of(&scene, &[point], InputKind::Parametric, Part::Value)[0];
+    assert!(
+        (found[0] - 0.3).abs() < 1e-4 && (found[1] - 0.5).abs() < 1e-4,
+        "{found:?}"
+    );
+}
+
+#[test]
 fn the_window_is_where_the_camera_sees_the_point() {
     let scene = scene(Affine3A::IDENTITY);
     let middle = hit_from(&scene, Vec3::new(0.5, 0.5, 2.0), Vec3::NEG_Z);

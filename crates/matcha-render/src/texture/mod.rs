@@ -84,7 +84,7 @@ fn texture(image: &Image) -> Option<Texture> {
     let associates = image.alpha == AlphaMode::Straight && !data;
     let levels = build_pyramid(image, associates)?;
     Some(Texture {
-        encoded: image.color_space == ColorSpace::Srgb && levels[0].is_bytes(),
+        encoded: image.color_space == ColorSpace::Srgb,
         associated: !data && matches!(image.alpha, AlphaMode::Straight | AlphaMode::Premultiplied),
         opaque: image.alpha == AlphaMode::None,
         levels,

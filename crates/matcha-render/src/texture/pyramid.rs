@@ -40,10 +40,7 @@ pub(super) fn build_pyramid(image: &Image, associate: bool) -> Option<Vec<Level>
     let count = (image.width as usize).checked_mul(image.height as usize)?;
     let texels = match &image.pixels {
         Pixels::Rgba8(pixels) => Texels::Bytes(associated_bytes(pixels, associate)),
-        Pixels::RgbaF32(pixels) => {
-            let linearize = image.color_space == ColorSpace::Srgb;
-            Texels::Floats(associated_floats(pixels, associate, linearize))
-        }
+        Pixels::RgbaF32(pixels) => Texels::Floats(associated_floats(pixels, associate)),
     };
     let (length, shared) = match (&texels, &image.pixels) {
         (Texels::Bytes(own), Pixels::Rgba8(scene)) => (own.len(), Arc::ptr_eq(own, scene)),
@@ -75,26 +72,11 @@ fn associated_bytes(pixels: &Arc<Vec<[u8; 4]>>, associate: bool) -> Arc<Vec<[u8;
     Arc::new(texels.collect())
 }
 
-fn associated_floats(
-    pixels: &Arc<Vec<[f32; 4]>>,
-    associate: bool,
-    linearize: bool,
-) -> Arc<Vec<[f32; 4]>> {
-    if !linearize && (!associate || pixels.iter().all(|p| p[3] == 1.0)) {
+fn associated_floats(pixels: &Arc<Vec<[f32; 4]>>, associate: bool) -> Arc<Vec<[f32; 4]>> {
+    if !associate || pixels.iter().all(|p| p[3] == 1.0) {
         return pixels.clone();
     }
-    let texels = pixels.iter().map(|&[r, g, b, a]| {
-        let [r, g, b] = if linearize {
-            [r, g, b].map(to_linear)
-        } else {
-            [r, g, b]
-        };
-        if associate {
-            [r * a, g * a, b * a, a]
-        } else {
-            [r, g, b, a]
-        }
-    });
+    let texels = pixels.iter().map(|&[r, g, b, a]| [r * a, g * a, b * a, a]);
     Arc::new(texels.collect())
 }
 
@@ -107,7 +89,6 @@ struct Plane {
 
 fn coarser_levels(finest: Level, encoded: bool) -> Vec<Level> {
     let bytes = finest.is_bytes();
-    let encoded = encoded && bytes;
     let mut levels = vec![finest];
     if levels[0].width == 1 && levels[0].height == 1 {
         return levels;
@@ -138,9 +119,17 @@ fn halve_finest(level: &Level, encoded: bool) -> Plane {
             }
         }),
         Texels::Floats(texels) => halve(width, height, |first, to| {
-            to.copy_from_slice(&texels[first..][..to.len()])
+            to.copy_from_slice(&texels[first..][..to.len()]);
+            if encoded {
+                to.iter_mut().for_each(|t| *t = colors(*t, to_linear));
+            }
         }),
     }
+}
+
+/// A texel with its colours changed.
+fn colors([r, g, b, a]: [f32; 4], change: fn(f32) -> f32) -> [f32; 4] {
+    [change(r), change(g), change(b), a]
 }
 
 /// Input texels under an output texel, with their weights: at most three where a size is odd.
@@ -200,6 +189,9 @@ fn store(plane: &Plane, bytes: bool, encoded: bool) -> Level {
         let color = |value: f32| byte(if encoded { to_encoded(value) } else { value });
         let texel = |t: &[f32; 4]| [color(t[0]), color(t[1]), color(t[2]), byte(t[3])];
         Texels::Bytes(Arc::new(plane.texels.iter().map(texel).collect()))
+    } else if encoded {
+        let texels = plane.texels.iter().map(|t| colors(*t, to_encoded));
+        Texels::Floats(Arc::new(texels.collect()))
     } else {
         Texels::Floats(Arc::new(plane.texels.clone()))
     };

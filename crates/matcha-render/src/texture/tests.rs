@@ -88,6 +88,29 @@ fn centres_give_texels_with_v_up() {
 }
 
 #[test]
+fn deep_images_are_filtered_and_multiplied_by_alpha_in_encoded_numbers_like_bytes() {
+    let bytes = image(4, 1, |x, _| [if x == 0 { 255 } else { 51 }, 102, 204, 153]);
+    let Pixels::Rgba8(texels) = &bytes.pixels else {
+        unreachable!()
+    };
+    let floats = texels.iter().map(|t| t.map(|c| f32::from(c) / 255.0));
+    let deep = Image {
+        pixels: Pixels::RgbaF32(Arc::new(floats.collect())),
+        color_space: ColorSpace::Srgb,
+        ..bytes.clone()
+    };
+    let bytes = Image {
+        color_space: ColorSpace::Srgb,
+        ..bytes
+    };
+    for (u, axis) in [(0.25, 0.0), (0.1, 0.0), (0.3, 0.5), (0.5, 2.0)] {
+        let [a, b] = [&bytes, &deep]
+            .map(|image| look_up(image, reference(), [u, 0.5], [[axis, 0.0], [0.0, axis]]));
+        assert!(near(a, b, 5e-3), "{a:?} {b:?} at {u}, {axis}");
+    }
+}
+
+#[test]
 fn linear_is_halfway_between_centres_and_wraps() {
     let image = image(4, 1, |x, _| [if x == 0 { 255 } else { 0 }; 4]);
     let at = |u: f32, extension| {

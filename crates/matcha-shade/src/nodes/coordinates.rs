@@ -64,9 +64,23 @@ pub(super) fn uv_set(l: &mut Lowering, at: At, name: &str) -> u16 {
     }
 }
 
+/// True in a light, of which no surface can be asked: what its tree reads of one is zero, and
+/// this is said.
+fn is_without_surface(l: &mut Lowering, at: At, output: &str) -> bool {
+    let is_light = l.kind == MaterialKind::Light;
+    if is_light {
+        let what = format!("the output {output} of {} in a light", l.source(at).kind);
+        l.substitute(at, &what, "zero");
+    }
+    is_light
+}
+
 /// `ShaderNodeTexCoord`.
 pub(super) fn texture_coordinates(l: &mut Lowering, at: At, output: &str) -> Lowered<Value> {
     let is_world = l.kind == MaterialKind::World;
+    if matches!(output, "UV" | "Object") && is_without_surface(l, at, output) {
+        return Ok(l.zero("VECTOR"));
+    }
     let vector = match output {
         "Generated" => generated(l),
         "UV" => uv(l, 0),
@@ -108,6 +122,11 @@ fn reflection(l: &mut Lowering) -> NodeId {
 /// `ShaderNodeUVMap`.
 pub(super) fn uv_map(l: &mut Lowering, at: At, _output: &str) -> Lowered<Value> {
     let name = l.text(at, "uv_map", "");
+    if !name.is_empty() && !l.names.uv.contains(&name) {
+        // What Cycles gives for a UV map that no mesh has.
+        l.substitute(at, &format!("the missing UV map \"{name}\""), "zero");
+        return Ok(l.zero("VECTOR"));
+    }
     let set = uv_set(l, at, &name);
     Ok(Value::Vector(uv(l, set)))
 }
@@ -162,6 +181,10 @@ fn attribute_value(l: &mut Lowering, at: At, name: &str, output: &str) -> Value 
 
 /// `ShaderNodeObjectInfo`.
 pub(super) fn object_info(l: &mut Lowering, at: At, output: &str) -> Lowered<Value> {
+    if is_without_surface(l, at, output) {
+        let is_vector = matches!(output, "Location" | "Color");
+        return Ok(l.zero(if is_vector { "VECTOR" } else { "VALUE" }));
+    }
     Ok(match output {
         "Location" => Value::Vector(l.graph.value(InputKind::ObjectLocation)),
         "Color" => Value::Color(l.graph.value(InputKind::ObjectColor)),
@@ -181,6 +204,7 @@ pub(super) fn geometry(l: &mut Lowering, at: At, output: &str) -> Lowered<Value>
         "True Normal" => l.graph.value(InputKind::TrueNormal),
         "Incoming" => l.graph.value(InputKind::Incoming),
         "Tangent" => radial_tangent(l, 2),
+        "Parametric" if is_without_surface(l, at, output) => l.graph.f3([0.0; 3]),
         "Parametric" => {
             let uv = l.graph.value(InputKind::Parametric);
             let zero = l.graph.f1(0.0);

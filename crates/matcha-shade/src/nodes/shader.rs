@@ -243,6 +243,10 @@ pub(super) fn principled(l: &mut Lowering, at: At, _output: &str) -> Lowered<Val
             "diffuse reflection",
         );
     }
+    let film = l.f1_or(at, "Thin Film Thickness", 0.0)?;
+    if l.known(film) != Some(0.0) {
+        l.substitute(at, "a thin film on ShaderNodeBsdfPrincipled", "no film");
+    }
     let white = l.graph.f3([1.0; 3]);
     Ok(leaf(l, kind, white, params))
 }

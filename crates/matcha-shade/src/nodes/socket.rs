@@ -159,10 +159,10 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether something is linked to an input.
-    pub fn is_linked(&self, at: At, identifier: &str) -> bool {
+    /// Whether a value arrives at an input by a link.
+    pub fn is_linked(&mut self, at: At, identifier: &str) -> bool {
         let index = self.find_input(at, identifier);
-        index.is_some_and(|i| self.source_of(at, i as u32).is_some())
+        index.is_some_and(|i| self.is_fed(at, i as u32))
     }
 
     /// A normal: the linked one, else the default.

@@ -89,7 +89,7 @@ nodes! {
     "ShaderNodeBsdfHair" in "Shader": shader::as_diffuse, "diffuse instead";
     "ShaderNodeBsdfHairPrincipled" in "Shader": shader::as_diffuse, "diffuse instead";
     "ShaderNodeBsdfMetallic" in "Shader": shader::metallic, "glossy of the base colour instead";
-    "ShaderNodeBsdfPrincipled" in "Shader": shader::principled, "subsurface is diffuse";
+    "ShaderNodeBsdfPrincipled" in "Shader": shader::principled, "subsurface is diffuse, no thin film";
     "ShaderNodeBsdfRefraction" in "Shader": shader::refraction;
     "ShaderNodeBsdfSheen" in "Shader": shader::sheen;
     "ShaderNodeBsdfToon" in "Shader": shader::as_diffuse, "diffuse instead";

@@ -3,6 +3,7 @@
 use super::*;
 use crate::closure::ClosureKind;
 use crate::graph::NodeKind;
+use crate::input::InputKind;
 use crate::material::ClosureNode;
 use crate::source::{Link, Property, Socket};
 use std::collections::BTreeMap;
@@ -213,8 +214,96 @@ fn muted_nodes_hand_on_and_reroutes_too() {
         vec![socket("Input", "VALUE", &[0.0])],
         vec![socket("Output", "VALUE", &[])],
     );
-    let links = vec![link([0, 0], [1, 0]), link([1, 0], [2, 1])];
-    assert_eq!(weight(&[emitting(vec![muted, reroute], links)])[0], 7.0);
+    let nodes = vec![muted, reroute, math("ADD", 3.0, 4.0)];
+    let mut links = vec![link([0, 0], [1, 0]), link([1, 0], [3, 1])];
+    // Where nothing comes in, Cycles hands zero on, not the socket's own value.
+    assert_eq!(weight(&[emitting(nodes.clone(), links.clone())]), [0.0; 3]);
+    links.push(link([2, 0], [0, 0]));
+    assert_eq!(weight(&[emitting(nodes, links)])[0], 7.0);
+}
+
+/// A checker texture whose coordinate is linked to a group's input, a muted node or a reroute.
+fn checker_behind(mut source: SourceNode) -> NodeTree {
+    source.outputs = vec![socket("Vector", "VECTOR", &[])];
+    let checker = node(
+        "ShaderNodeTexChecker",
+        vec![
+            socket("Vector", "VECTOR", &[0.0; 3]),
+            socket("Color1", "RGBA", &[1.0; 4]),
+            socket("Color2", "RGBA", &[0.0; 4]),
+            socket("Scale", "VALUE", &[5.0]),
+        ],
+        vec![socket("Color", "RGBA", &[])],
+    );
+    let links = vec![link([0, 0], [1, 0]), link([1, 0], [2, 0])];
+    emitting(vec![source, checker], links)
+}
+
+#[test]
+fn what_a_light_reads_of_a_surface_is_zero_and_said() {
+    for (kind, output) in [
+        ("ShaderNodeTexCoord", "UV"),
+        ("ShaderNodeTexCoord", "Object"),
+        ("ShaderNodeNewGeometry", "Parametric"),
+        ("ShaderNodeObjectInfo", "Random"),
+    ] {
+        let source = node(kind, vec![], vec![socket(output, "VECTOR", &[])]);
+        let mut tree = emitting(vec![source], vec![link([0, 0], [1, 1])]);
+        tree.nodes[2].kind = "ShaderNodeOutputLight".into();
+        let names = Names {
+            uv: &[String::new()],
+            attributes: &[],
+        };
+        let (_, report) = lower(&[tree], 0, names, "Lamp", MaterialKind::Light).expect(kind);
+        let said: Vec<String> = report.items.iter().map(|item| item.kind.clone()).collect();
+        assert_eq!(said, [format!("the output {output} of {kind} in a light")]);
+    }
+}
+
+#[test]
+fn a_missing_uv_map_is_zero() {
+    let mut map = node("ShaderNodeUVMap", vec![], vec![socket("UV", "VECTOR", &[])]);
+    let name = Property::Text("Second".into());
+    map.props.insert("uv_map".into(), name);
+    assert_eq!(
+        weight(&[emitting(vec![map], vec![link([0, 0], [1, 1])])]),
+        [0.0; 3]
+    );
+}
+
+#[test]
+fn a_coordinate_that_nothing_feeds_is_the_default() {
+    let reads_generated = |trees: &[NodeTree]| {
+        let (material, _) = lowered(trees).expect("it lowers");
+        material.graph.nodes().iter().any(|node| {
+            matches!(node.kind, NodeKind::Input(input) if input.kind == InputKind::Generated)
+        })
+    };
+    let vector = || vec![socket("Vector", "VECTOR", &[0.5; 3])];
+    let mut muted = node("ShaderNodeMapping", vector(), vec![]);
+    muted.muted = true;
+    muted.internal_links = vec![[0, 0]];
+    assert!(reads_generated(&[checker_behind(muted)]));
+    let reroute = node("NodeReroute", vector(), vec![]);
+    assert!(reads_generated(&[checker_behind(reroute)]));
+
+    let mut inner = checker_behind(node("NodeGroupInput", vec![], vec![]));
+    inner.nodes[3] = node(
+        "NodeGroupOutput",
+        vec![socket("Shader", "SHADER", &[])],
+        vec![],
+    );
+    let mut group = node(
+        "ShaderNodeGroup",
+        vector(),
+        vec![socket("Shader", "SHADER", &[])],
+    );
+    group.tree = Some(1);
+    let mut outer = emitting(vec![group, math("ADD", 1.0, 1.0)], vec![]);
+    outer.links = vec![link([0, 0], [3, 0])];
+    assert!(reads_generated(&[outer.clone(), inner.clone()]));
+    outer.links.push(link([1, 0], [0, 0]));
+    assert!(!reads_generated(&[outer, inner]));
 }
 
 #[test]
@@ -315,6 +404,7 @@ fn not_honoured() -> Vec<(SourceNode, &'static str)> {
         (make("ShaderNodeBsdfMetallic", shader, &[("Base Color", "RGBA", 0.5), ("Roughness", "VALUE", 0.2)], &[("distribution", "GGX")]), "ShaderNodeBsdfMetallic"),
         (make("ShaderNodeBsdfToon", shader, &[("Color", "RGBA", 0.5)], &[]), "ShaderNodeBsdfToon"),
         (make("ShaderNodeBsdfGlass", shader, &film, &[("distribution", "GGX")]), "a thin film on glass"),
+        (make("ShaderNodeBsdfPrincipled", shader, &film[3..], &[("distribution", "GGX"), ("subsurface_method", "BURLEY")]), "a thin film on ShaderNodeBsdfPrincipled"),
         (make("ShaderNodeSubsurfaceScattering", ("BSSRDF", "SHADER"), &[("Color", "RGBA", 0.5), ("Scale", "VALUE", 1.0), ("Radius", "VECTOR", 1.0)], &[]), "ShaderNodeSubsurfaceScattering"),
         (make("ShaderNodeVolumeScatter", ("Volume", "SHADER"), &[], &[]), "ShaderNodeVolumeScatter"),
         (make("ShaderNodeTexImage", color, &[], &[]), "an image texture without an image"),

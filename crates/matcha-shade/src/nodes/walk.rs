@@ -195,6 +195,7 @@ impl<'a> Lowering<'a> {
             ));
         };
         let value = match self.passes_through(task)? {
+            Some(Through::Input(at, input)) if self.is_empty(at, input) => self.zero(&socket.kind),
             Some(Through::Input(at, input)) => self.input_at(at, input as usize)?,
             Some(Through::Nothing) => self.zero(&socket.kind),
             None => match table::find(&node.kind) {
@@ -203,6 +204,32 @@ impl<'a> Lowering<'a> {
             },
         };
         socket::convert(self, value, &socket.kind)
+    }
+
+    /// Whether an input of a node that is muted has no link: Cycles hands zero on then, not the
+    /// input's own value.
+    fn is_empty(&self, at: At, input: u32) -> bool {
+        self.source(at).muted && self.source_of(at, input).is_none()
+    }
+
+    /// Whether a value arrives at an input, and not only a group's, a reroute's or a muted node's
+    /// input that nothing is linked to: what has a default of its own, like a texture's
+    /// coordinate or a normal, keeps it there.
+    pub(super) fn is_fed(&mut self, at: At, input: u32) -> bool {
+        let mut source = self.source_of(at, input);
+        let mut seen = HashSet::new();
+        while let Some(task) = source {
+            // Lowering the input names what is wrong with a cycle, or with a group.
+            if !seen.insert(task) {
+                return true;
+            }
+            source = match self.passes_through(task) {
+                Ok(Some(Through::Input(at, input))) => self.source_of(at, input),
+                Ok(Some(Through::Nothing)) => None,
+                Ok(None) | Err(_) => return true,
+            };
+        }
+        false
     }
 
     /// Nodes that only hand on: groups, their inputs, reroutes, muted nodes.
