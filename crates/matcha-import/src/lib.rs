@@ -97,7 +97,7 @@ pub fn load(
     })?;
     let folder = Folder(Some(glb.parent().unwrap_or(Path::new("."))));
     let mut imported =
-        load_from(&bytes, folder, options, progress).map_err(|fault| fault.in_file(&glb))?;
+        load_from(&bytes, folder, options, progress).map_err(|fault| fault.in_file(path))?;
     imported.scene.name = path
         .file_stem()
         .map(|stem| stem.to_string_lossy().into_owned())

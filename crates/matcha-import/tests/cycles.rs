@@ -133,6 +133,17 @@ fn everything_arrives() {
     );
 }
 
+/// Its cone is as wide as its object's scale makes it.
+#[test]
+fn a_spot_keeps_its_scale() {
+    let mut file = cycles();
+    file.json["nodes"][1]["extensions"]["MATCHA_cycles"]["light"]["type"] = json!("SPOT");
+    let scene = file.load().unwrap().scene;
+    let matrix = scene.lights[0].transform.matrix3;
+    let lengths = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.length());
+    assert_eq!(lengths, [2.0, 3.0, 1.0]);
+}
+
 /// Files from before the exporter wrote it have none.
 #[test]
 fn bounces_before_roulette_are_none_where_absent() {

@@ -73,8 +73,6 @@ const CASES: &[Case] = &[
         "shadow catchers are not supported (nodes[0], object \"Board\"): rendered as an ordinary object"),
     (cycles, |f| set(f, 1, "light", "portal", json!(true)),
         "light portals are not supported (light \"Area\"): left out"),
-    (cycles, |f| set(f, 1, "light", "type", json!("SPOT")),
-        "spot lights of uneven scale are not supported (light \"Area\"): its cone is round"),
     (cycles, |f| { f.json["nodes"][0]["scale"] = json!([1, 2, 1]); f.json["nodes"][1]["rotation"] = json!([0.38268343, 0, 0, 0.92387953]); },
         "sheared area lights are not supported (light \"Area\"): its sides are perpendicular"),
     (cycles, |f| { set(f, 2, "camera", "type", json!("PANO")); set(f, 2, "camera", "panorama", json!("FISHEYE_EQUIDISTANT")); },

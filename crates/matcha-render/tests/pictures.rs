@@ -6,7 +6,7 @@ use glam::{Affine3A, Vec3};
 use matcha_render::backend::{Backend, CacheMode, Control, CpuSchedule, RenderOptions};
 use matcha_render::cpu::CpuBackend;
 use matcha_render::prepare::Prepared;
-use matcha_render::scene::{Light, LightShape, Scene};
+use matcha_render::scene::{Light, LightShape, Scene, Visibility};
 use matcha_shade::vm::Isa;
 use scenes::*;
 use std::sync::Arc;
@@ -106,6 +106,49 @@ fn a_suns_node_tree_is_evaluated_beside_the_world() {
         let apart = (0..3).map(|c| (a[c] - b[c]).abs());
         assert!(apart.fold(0.0f32, f32::max) < 1e-4, "{a:?} {b:?}");
     }
+}
+
+/// Mean of a grey floor (0.5) under a sharp sun from above, in a world of one radiance.
+fn floor_under(sun: Light, world: f32) -> f32 {
+    let mut scene = empty(0.9);
+    scene.world.color = Vec3::splat(world);
+    let floor = add_material(&mut scene, diffuse([0.5; 3]));
+    add_square(&mut scene, Vec3::ZERO, 50.0, false, floor);
+    scene.lights.push(Light {
+        shape: LightShape::Sun { angle: 0.0 },
+        ..sun
+    });
+    mean(&render(scene, &RenderOptions::default()))
+}
+
+/// Artists darken corners with lights of negative power.
+#[test]
+fn a_negative_light_takes_light_away() {
+    let sun = |power: f32| Light {
+        power: Vec3::splat(power * std::f32::consts::PI),
+        ..Light::default()
+    };
+    let [more, less] = [0.2, -0.2].map(|power| floor_under(sun(power), 1.0));
+    assert!((more - 0.6).abs() < 2e-3, "{more}");
+    assert!((less - 0.4).abs() < 2e-3, "{less}");
+}
+
+/// What diffuse rays do not see lights no diffuse closure; other kinds of rays do not matter to it.
+#[test]
+fn a_light_lights_the_closures_whose_rays_see_it() {
+    let sun = |hide: fn(&mut Visibility)| {
+        let mut sun = Light {
+            power: Vec3::splat(0.2 * std::f32::consts::PI),
+            ..Light::default()
+        };
+        hide(&mut sun.visibility);
+        sun
+    };
+    let hidden = floor_under(sun(|v| v.diffuse = false), 0.0);
+    assert_eq!(hidden, 0.0);
+    let other = sun(|v| (v.camera, v.glossy, v.transmission) = (false, false, false));
+    let lit = floor_under(other, 0.0);
+    assert!((lit - 0.1).abs() < 1e-3, "{lit}");
 }
 
 /// The same seed gives the same bits whatever the number of threads.

@@ -2,13 +2,13 @@
 
 use super::schema;
 use crate::error::{Checked, Fault};
-use crate::plain::hierarchy::{Placed, to_z_up_aimed};
+use crate::plain::hierarchy::{Placed, to_z_up_aimed, to_z_up_aimed_scaled};
 use crate::report::{Report, ReportKind};
-use glam::{DVec3, Vec2, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
 use matcha_render::scene::{Light, LightShape, Scene};
 
-/// Relative differences of scale, and cosines between axes, up to which a light counts as
-/// undistorted: matrices come in single precision.
+/// Cosines between axes up to which a light counts as undistorted: matrices come in single
+/// precision.
 const DISTORTION: f64 = 1e-3;
 
 pub(super) fn add(
@@ -49,7 +49,7 @@ pub(super) fn add(
                 ),
             )
         })?,
-        transform: to_z_up_aimed(placed.world),
+        transform: transform(&source, placed),
         power,
         tree: source.tree,
         cast_shadow: source.cast_shadow,
@@ -63,27 +63,29 @@ pub(super) fn add(
     Ok(())
 }
 
-/// Cycles stretches a spot's cone with its object, and lets an area light's sides be slanted.
+/// A spot's cone stretches with its object, as in Cycles.
+fn transform(source: &schema::Light, placed: &Placed) -> Affine3A {
+    let stretched = to_z_up_aimed_scaled(placed.world);
+    let flat = stretched.matrix3.determinant() == 0.0;
+    if source.kind == "SPOT" && !flat {
+        stretched
+    } else {
+        to_z_up_aimed(placed.world)
+    }
+}
+
+/// Cycles lets an area light's sides be slanted.
 fn report_distortion(source: &schema::Light, placed: &Placed, place: &str, report: &mut Report) {
     let axes = [0, 1, 2].map(|column| placed.world.col(column).truncate());
-    let [x, y, z] = axes.map(DVec3::length);
     let slant = |a: usize, b: usize| axes[a].normalize_or_zero().dot(axes[b].normalize_or_zero());
     let sheared = [slant(0, 1), slant(1, 2), slant(2, 0)]
         .iter()
         .any(|cosine| cosine.abs() > DISTORTION);
-    let uneven = (x.max(y).max(z) - x.min(y).min(z)) > DISTORTION * x.max(y).max(z);
-    let (what, instead) = match source.kind.as_str() {
-        "SPOT" if sheared || uneven => (
-            "spot lights of uneven scale are not supported",
-            "its cone is round, as wide as without scale",
-        ),
-        "AREA" if sheared => (
-            "sheared area lights are not supported",
-            "its sides are perpendicular to its direction and each other",
-        ),
-        _ => return,
-    };
-    report.add(ReportKind::Feature(what.into()), place, instead);
+    if source.kind == "AREA" && sheared {
+        let what = ReportKind::Feature("sheared area lights are not supported".into());
+        let instead = "its sides are perpendicular to its direction and each other";
+        report.add(what, place, instead);
+    }
 }
 
 /// Only area lights grow with their object, as in Cycles.

@@ -106,7 +106,13 @@ pub(crate) fn to_z_up(world: DMat4) -> Affine3A {
 }
 
 /// Placement of something that looks along its own -Z with +Y up, as cameras and lights
-/// do on both sides: C M, without scale.
+/// do on both sides: C M.
+pub(crate) fn to_z_up_aimed_scaled(world: DMat4) -> Affine3A {
+    let column = |i: usize| z_up(world.col(i).truncate().as_vec3());
+    Affine3A::from_mat3_translation(Mat3::from_cols(column(0), column(1), column(2)), column(3))
+}
+
+/// The same without scale and shear.
 pub(crate) fn to_z_up_aimed(world: DMat4) -> Affine3A {
     let column = |i: usize| z_up(world.col(i).truncate().as_vec3());
     let z = column(2).try_normalize().unwrap_or(Vec3::Z);

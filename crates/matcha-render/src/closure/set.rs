@@ -8,6 +8,7 @@ use crate::device::closure_set::{
 pub use crate::device::closure_set::{Evaluated, Scattered};
 use crate::device::fresnel::FRESNEL_NONE;
 use crate::device::lobe::{ClosureFrame, ClosureLobe, LOBE_DIFFUSE};
+use crate::device::ray_kind::RAY_ALL;
 use glam::Vec3;
 
 /// What happened to a scattered path; the bits are those of the device code.
@@ -107,7 +108,7 @@ impl LobeSet {
     /// Value and density of all lobes for the direction `wi`. Singular lobes are not in it,
     /// and light from behind the shading normal counts only where some lobe transmits.
     pub fn eval(&self, wi: Vec3) -> Evaluated {
-        closure_set_eval(self, wi)
+        closure_set_eval(self, wi, RAY_ALL)
     }
 
     /// Samples a direction with `u` in [0, 1)³: `u.z` selects the lobe. None where the

@@ -9,6 +9,7 @@ use super::lobe::{
     ClosureFrame, ClosureLobe, LOBE_BECKMANN, LOBE_SINGULAR_ALPHA2, LOBE_SINGULAR_DENSITY,
     LOBE_TRANSLUCENT, SCATTER_TRANSMIT, SCATTER_TRANSPARENT, lobe_eval, lobe_sample,
 };
+use super::ray_kind::{RAY_ALL, RAY_DIFFUSE, RAY_GLOSSY, RAY_TRANSMISSION};
 
 /// Lobes that one hit can have; further ones are counted in [`LobeSet::dropped`] and left
 /// out. A Principled closure needs up to seven.
@@ -197,13 +198,32 @@ pub fn closure_set_normal(set: &LobeSet) -> Vec3 {
     closure_unit(sum, set.frame.n)
 }
 
-/// Adds every lobe but number `skip`; densities are multiplied by sampling weights.
+/// The `RAY_` bit of the rays that a lobe scatters.
+#[inline(always)]
+pub fn lobe_ray_kind(lobe: ClosureLobe) -> u32 {
+    if lobe.kind <= LOBE_TRANSLUCENT {
+        RAY_DIFFUSE
+    } else if lobe_transmits(lobe) {
+        RAY_TRANSMISSION
+    } else {
+        RAY_GLOSSY
+    }
+}
+
+/// Adds every lobe but number `skip` that scatters one of the `kinds` of rays (`RAY_` bits);
+/// densities are multiplied by sampling weights.
 #[inline]
-pub fn closure_set_accumulate(set: &LobeSet, wi: Vec3, skip: u32, total: &mut Evaluated) {
+pub fn closure_set_accumulate(
+    set: &LobeSet,
+    wi: Vec3,
+    skip: u32,
+    kinds: u32,
+    total: &mut Evaluated,
+) {
     let mut i = 0;
     while i < set.count {
-        if i != skip {
-            let lobe = set.lobes[i as usize];
+        let lobe = set.lobes[i as usize];
+        if i != skip && (kinds & lobe_ray_kind(lobe)) != 0 {
             let at = lobe_eval(lobe, set.frame, wi);
             let value = at.value * lobe.weight;
             total.value += value;
@@ -216,9 +236,10 @@ pub fn closure_set_accumulate(set: &LobeSet, wi: Vec3, skip: u32, total: &mut Ev
     }
 }
 
-/// Value and density of all lobes for the direction `wi`. Singular lobes are not in it,
+/// Value and density for the direction `wi` of all lobes that scatter the `kinds` of rays (`RAY_`
+/// bits) which see what is there. Singular lobes are not in it,
 /// and light from behind the shading normal counts only where some lobe transmits.
-pub fn closure_set_eval(set: &LobeSet, wi: Vec3) -> Evaluated {
+pub fn closure_set_eval(set: &LobeSet, wi: Vec3, kinds: u32) -> Evaluated {
     let mut total = Evaluated {
         value: Vec3::ZERO,
         diffuse: Vec3::ZERO,
@@ -226,7 +247,7 @@ pub fn closure_set_eval(set: &LobeSet, wi: Vec3) -> Evaluated {
     };
     let hidden = !set.transmits && dot(set.frame.n, wi) < 0.0;
     if !hidden {
-        closure_set_accumulate(set, wi, CLOSURE_NO_LOBE, &mut total);
+        closure_set_accumulate(set, wi, CLOSURE_NO_LOBE, kinds, &mut total);
         total.pdf /= max(set.sum, f32::MIN_POSITIVE);
     }
     total
@@ -290,7 +311,7 @@ pub fn closure_set_sample_lobe(set: &LobeSet, pick: ClosurePick, u: Vec3) -> Sca
             pdf: scattered.pdf * lobe.sample_weight,
         };
         if set.count > 1 {
-            closure_set_accumulate(set, scattered.wi, pick.lobe, &mut total);
+            closure_set_accumulate(set, scattered.wi, pick.lobe, RAY_ALL, &mut total);
         }
         Scattered {
             wi: scattered.wi,

@@ -4,7 +4,7 @@
 #![allow(clippy::too_many_arguments)]
 
 use glam::{Vec2, Vec3};
-use matcha_shade::device::math::{is_finite3, splat3, vec2};
+use matcha_shade::device::math::{abs3, is_finite3, splat3, vec2};
 
 use super::closure_lobe::ClosureContext;
 use super::closure_set::{
@@ -19,7 +19,7 @@ use super::light_sample::{
 };
 use super::light_view::{LIGHT_NONE, LightView};
 use super::lobe::{SCATTER_DIFFUSE, SCATTER_SINGULAR, SCATTER_TRANSMIT, SCATTER_TRANSPARENT};
-use super::path_flags::{PATH_CAMERA, PATH_DIFFUSE, PATH_ENDS, PATH_FEATURES_DONE, PATH_TERMINATE};
+use super::path_flags::{PATH_DIFFUSE, PATH_ENDS, PATH_FEATURES_DONE, PATH_TERMINATE};
 use super::path_ray::{ShadowStart, ray_to_light};
 use super::path_start::{DRAW_LIGHT, DRAW_SCATTER};
 use super::path_state::{
@@ -27,7 +27,7 @@ use super::path_state::{
     path_power_heuristic, path_survival,
 };
 use super::path_step::{
-    PathTurn, path_hold_out, path_keep_small, path_note_features, path_pass_through, path_ray_mask,
+    PathTurn, path_hold_out, path_keep_small, path_note_features, path_pass_through,
     path_scatter, path_survive,
 };
 use super::sobol::sobol_3d;
@@ -140,13 +140,6 @@ pub fn path_meet_surface(
     }
 }
 
-/// Whether a light that was drawn counts for a path at its hit.
-#[inline]
-pub fn path_is_lit_by(path: &Path, visibility: u32, max_bounces: u32) -> bool {
-    let sees = (path.flags & PATH_CAMERA) != 0 || (visibility & path_ray_mask(path.flags)) != 0;
-    sees && path.bounce <= max_bounces
-}
-
 /// The task of a light that was drawn, whose closures give `value` (throughput included).
 #[inline]
 pub fn path_task(
@@ -195,8 +188,9 @@ pub fn path_try_light(
     let draw = light_sample(lights, point.position, normal, u.x, vec2(u.y, u.z));
     let mut task = path_no_task();
     let tried = draw.kind != LIGHT_IS_NONE && draw.pdf > 0.0;
-    if tried && path_is_lit_by(path, draw.visibility, draw.max_bounces) {
-        let scattered = closure_set_eval(set, draw.wi);
+    if tried && path.bounce <= draw.max_bounces {
+        // A light that diffuse rays do not see lights no diffuse closure.
+        let scattered = closure_set_eval(set, draw.wi, draw.visibility);
         let mut weight = 1.0;
         if draw.mis {
             weight = path_power_heuristic(draw.pdf, scattered.pdf);
@@ -208,7 +202,8 @@ pub fn path_try_light(
         } else {
             value *= path_light_factor(&draw);
         }
-        if is_finite3(value) && path_max_element(value) > 0.0 {
+        // Lights may have negative colours.
+        if is_finite3(value) && path_max_element(abs3(value)) > 0.0 {
             task = path_task(path, point, &draw, value, settings);
         }
     }

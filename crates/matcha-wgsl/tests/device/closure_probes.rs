@@ -8,6 +8,7 @@ use matcha_render::device::closure_set::{
 };
 use matcha_render::device::closure_tables::ClosureTables;
 use matcha_render::device::lobe::ClosureFrame;
+use matcha_render::device::ray_kind::RAY_ALL;
 use matcha_shade::device::math::*;
 
 /// A number in [0, 1) of two words.
@@ -65,7 +66,7 @@ pub fn probe_lobes(
     };
     closure_prepare(kind, rows, tables, context, set);
     let wi = normalize(probe_randoms(seed, 110) - vec3(0.5, 0.5, 0.2));
-    let at = closure_set_eval(set, wi);
+    let at = closure_set_eval(set, wi, RAY_ALL);
     let to = closure_set_sample(set, probe_randoms(seed, 120));
     [
         at.value.x + at.value.y + at.value.z,
