@@ -27,8 +27,8 @@ use super::path_state::{
     path_power_heuristic, path_survival,
 };
 use super::path_step::{
-    PathTurn, path_hold_out, path_keep_small, path_note_features, path_pass_through,
-    path_scatter, path_survive,
+    PathTurn, path_hold_out, path_keep_small, path_note_features, path_pass_through, path_scatter,
+    path_survive,
 };
 use super::sobol::sobol_3d;
 use super::surface_cone::cone_spread_after;
