@@ -52,13 +52,16 @@ def at_vertices(mesh, of_edges):
     return (total / np.maximum(count, 1)[:, None]).astype(np.float32)
 
 
-def weights(mesh, group):
-    """A vertex group, by its place in the object's list, as a number at each vertex."""
-    values = np.zeros((len(mesh.vertices), 1), dtype=np.float32)
+def weights(mesh, groups):
+    """Vertex groups, by their places in the object's list: a number at each vertex, by place."""
+    values = {group: np.zeros((len(mesh.vertices), 1), dtype=np.float32) for group in groups}
+    if not values:
+        return values
+    # There is no `foreach_get` for them; one way through the vertices is for all groups.
     for vertex in mesh.vertices:
         for member in vertex.groups:
-            if member.group == group:
-                values[vertex.index] = member.weight
+            if member.group in values:
+                values[member.group][vertex.index] = member.weight
     return values
 
 

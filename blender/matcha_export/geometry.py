@@ -86,13 +86,17 @@ def wanted(mesh, needs, groups, vertices, faces):
     names = needs.attributes - {layer.name for layer in mesh.uv_layers}
     if needs.active_color and render_color(mesh):
         names = names | {render_color(mesh)}
+    names = sorted(names - {""})
+    # An attribute wins over a group of its name.
+    of_groups = [groups.index(name) for name in names if name in groups and name not in mesh.attributes]
+    weights = attributes.weights(mesh, of_groups)
     found = []
-    for name in sorted(names - {""}):
+    for name in names:
         attribute = mesh.attributes.get(name)
         if attribute is not None:
             kind, array = attributes.meaning(attribute), attributes.on_corners(mesh, attribute, vertices, faces)
         elif name in groups:
-            kind, array = "FLOAT", attributes.weights(mesh, groups.index(name))[vertices]
+            kind, array = "FLOAT", weights[groups.index(name)][vertices]
         else:
             continue
         if array is not None:

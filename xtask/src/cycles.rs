@@ -1,7 +1,7 @@
 //! `cargo xtask cycles`: Matcha and Cycles in turn on the same machine.
 
-use crate::matcha;
 use crate::picture::Picture;
+use crate::program;
 use anyhow::{Context, Result, ensure};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -52,7 +52,7 @@ fn seconds_of_cycles(arguments: &Arguments, picture: &Path) -> Result<f64> {
 
 fn seconds_of_matcha(arguments: &Arguments, picture: &Path) -> Result<f64> {
     let stats = picture.with_extension("json");
-    let mut command = matcha::command();
+    let mut command = program::command();
     command
         .arg("render")
         .arg(&arguments.scene)
@@ -63,8 +63,8 @@ fn seconds_of_matcha(arguments: &Arguments, picture: &Path) -> Result<f64> {
         .args(["--resolution", &arguments.resolution])
         .arg("--stats")
         .arg(&stats);
-    matcha::run(&mut command)?;
-    matcha::number(&matcha::json(&stats)?, &["seconds"])
+    program::run(&mut command)?;
+    program::number(&program::json(&stats)?, &["seconds"])
 }
 
 /// How far both pictures are from the reference, and what of Matcha's time Cycles' noise takes:
@@ -85,7 +85,7 @@ fn compare(reference: &Path, pictures: [&Path; 2], ratio: f64) -> Result<()> {
 }
 
 pub fn run(arguments: &Arguments) -> Result<()> {
-    matcha::build()?;
+    program::build()?;
     let folder = std::env::temp_dir().join(format!("matcha-cycles-{}", std::process::id()));
     std::fs::create_dir_all(&folder)?;
     let [picture, other] = ["matcha.exr", "cycles.exr"].map(|name| folder.join(name));

@@ -1,7 +1,7 @@
 //! `cargo xtask first-picture`: seconds from start to the first sample, with kernels that
 //! must be compiled and with kernels that are kept, for a scene and for many materials.
 
-use crate::{many_materials, matcha};
+use crate::{many_materials, program};
 use anyhow::Result;
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<()> {
     if !arguments.keep {
-        matcha::build()?;
+        program::build()?;
     }
     let folder = std::env::temp_dir().join(format!("matcha-first-{}", std::process::id()));
     std::fs::create_dir_all(&folder)?;
@@ -62,8 +62,8 @@ fn rows(arguments: &Arguments, folder: &Path, scene: &Path, name: &str) -> Resul
         let stats = render(folder, scene, &arguments.device, &arguments.resolution)?;
         println!(
             "| {name} | {state} | {:.2} | {:.2} |",
-            matcha::number(&stats, &["first_sample_seconds"])?,
-            matcha::number(&stats, &["pipeline_seconds"])?
+            program::number(&stats, &["first_sample_seconds"])?,
+            program::number(&stats, &["pipeline_seconds"])?
         );
     }
     Ok(())
@@ -79,7 +79,7 @@ fn render(
     let stats = folder.join("stats.json");
     let driver = folder.join("cache/driver");
     std::fs::create_dir_all(&driver)?;
-    let mut command = matcha::command();
+    let mut command = program::command();
     command
         .arg("render")
         .arg(scene)
@@ -92,6 +92,6 @@ fn render(
         .env("XDG_CACHE_HOME", folder.join("cache"))
         .env("MESA_SHADER_CACHE_DIR", &driver)
         .env("__GL_SHADER_DISK_CACHE_PATH", &driver);
-    matcha::run(&mut command)?;
-    matcha::json(&stats)
+    program::run(&mut command)?;
+    program::json(&stats)
 }

@@ -1,6 +1,6 @@
 //! `cargo xtask gpu-bench`: what the cache saves on a GPU, as a table for `docs/results.md`.
 
-use crate::matcha;
+use crate::program;
 use anyhow::{Context, Result};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -50,7 +50,7 @@ struct Row<'a> {
 pub fn run(arguments: &Arguments) -> Result<()> {
     let sizes = sizes(&arguments.sizes)?;
     if !arguments.keep {
-        matcha::build()?;
+        program::build()?;
     }
     let start = Instant::now();
     let folder = std::env::temp_dir().join(format!("matcha-gpu-bench-{}", std::process::id()));
@@ -107,7 +107,7 @@ fn measure(
 fn compare(arguments: &Arguments, row: &Row, folder: &Path) -> Result<(Value, Value)> {
     let stats = folder.join("stats.json");
     std::fs::create_dir_all(folder)?;
-    let mut command = matcha::command();
+    let mut command = program::command();
     command
         .arg("compare")
         .arg(row.scene)
@@ -122,10 +122,10 @@ fn compare(arguments: &Arguments, row: &Row, folder: &Path) -> Result<(Value, Va
     if let Some([cells, entries]) = row.size {
         command.args(["--cells", cells, "--entries", entries]);
     }
-    matcha::run(&mut command).with_context(|| format!("{}", row.scene.display()))?;
+    program::run(&mut command).with_context(|| format!("{}", row.scene.display()))?;
     Ok((
-        matcha::json(&folder.join("report.json"))?,
-        matcha::json(&stats)?,
+        program::json(&folder.join("report.json"))?,
+        program::json(&stats)?,
     ))
 }
 
@@ -141,9 +141,9 @@ fn heading(arguments: &Arguments, report: &Value) -> String {
 }
 
 fn line(row: &Row, report: &Value, stats: &Value) -> Result<String> {
-    let of = |keys: &[&str]| matcha::number(report, keys);
+    let of = |keys: &[&str]| program::number(report, keys);
     let rate =
-        |side: &str, key: &str| Ok::<_, anyhow::Error>(matcha::number(stats, &[side, key])? / 1e6);
+        |side: &str, key: &str| Ok::<_, anyhow::Error>(program::number(stats, &[side, key])? / 1e6);
     let (without, with) = (of(&["seconds", "without"])?, of(&["seconds", "with"])?);
     let size = row
         .size

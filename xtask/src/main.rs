@@ -9,8 +9,8 @@ mod cycles;
 mod first_picture;
 mod gpu_bench;
 mod many_materials;
-mod matcha;
 mod picture;
+mod program;
 mod reference;
 
 use clap::Parser;
@@ -32,7 +32,8 @@ enum Task {
     ManyMaterials(many_materials::Arguments),
 }
 
-/// Every error is one line on standard error and exit code 2, as `matcha`'s are.
+/// Every error is one line on standard error and exit code 2, as `matcha`'s are. Returned from here it
+/// would bring a backtrace where one is asked for, which says nothing about a missing file.
 fn main() -> ExitCode {
     let outcome = match Task::parse() {
         Task::Reference(arguments) => reference::run(&arguments),
@@ -44,36 +45,8 @@ fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("xtask: {}", one_line(&error));
+            eprintln!("xtask: {}", matcha::sentence(&error));
             ExitCode::from(2)
         }
-    }
-}
-
-/// An error with its causes, each once: some errors say their cause themselves. Returned from
-/// `main` it would bring a backtrace where one is asked for, which says nothing about a missing file.
-fn one_line(error: &anyhow::Error) -> String {
-    let mut text = String::new();
-    for cause in error.chain().map(ToString::to_string) {
-        if text.is_empty() {
-            text = cause;
-        } else if !text.contains(&cause) {
-            text += &format!(": {cause}");
-        }
-    }
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-#[cfg(test)]
-mod tests {
-    use anyhow::Context;
-
-    #[test]
-    fn an_error_is_one_line_with_its_causes() {
-        let missing = || Err::<(), _>(std::io::Error::other("not\nthere"));
-        let plain = missing().context("a.exr: unreadable").unwrap_err();
-        assert_eq!(super::one_line(&plain), "a.exr: unreadable: not there");
-        let said = missing().context("a.exr: not\nthere").unwrap_err();
-        assert_eq!(super::one_line(&said), "a.exr: not there");
     }
 }

@@ -1,25 +1,27 @@
 //! Reading EXR pictures and comparing them.
 
 use anyhow::{Context, Result, ensure};
+use matcha::measure;
+use matcha::picture::view::View;
 use std::path::Path;
 
-/// A picture, linear Rec.709.
+/// A picture, linear Rec.709 and alpha.
 pub struct Picture {
     /// Pixels in a row.
     pub width: usize,
     /// Rows.
     pub height: usize,
     /// Pixels, top row first.
-    pub pixels: Vec<[f32; 3]>,
+    pub pixels: Vec<[f32; 4]>,
 }
 
 /// How far a picture is from its reference.
 pub struct Difference {
     /// Mean of each channel over the reference's.
     pub channel_ratio: [f64; 3],
-    /// Mean FLIP error (Andersson et al. 2020), 67 pixels per degree.
+    /// Mean FLIP error in the Standard view.
     pub flip_mean: f32,
-    /// Mean of (a − b)² / (b² + 0.01).
+    /// Relative mean squared error.
     pub rel_mse: f64,
 }
 
@@ -28,9 +30,9 @@ impl Picture {
     pub fn read(path: &Path) -> Result<Self> {
         let image = exr::prelude::read_first_rgba_layer_from_file(
             path,
-            |size, _| (size.width(), vec![[0.0f32; 3]; size.area()]),
-            |(width, pixels), position, (r, g, b, _): (f32, f32, f32, f32)| {
-                pixels[position.y() * *width + position.x()] = [r, g, b];
+            |size, _| (size.width(), vec![[0.0f32; 4]; size.area()]),
+            |(width, pixels), position, (r, g, b, a): (f32, f32, f32, f32)| {
+                pixels[position.y() * *width + position.x()] = [r, g, b, a];
             },
         )
         .with_context(|| format!("cannot read {}", path.display()))?;
@@ -43,7 +45,7 @@ impl Picture {
         })
     }
 
-    /// Mean of each channel.
+    /// Mean of each colour channel.
     pub fn mean(&self) -> [f64; 3] {
         let sum = self.pixels.iter().fold([0.0; 3], |sum: [f64; 3], p| {
             [
@@ -66,44 +68,12 @@ impl Picture {
             reference.height
         );
         let (a, b) = (self.mean(), reference.mean());
-        let squares = self
-            .pixels
-            .iter()
-            .flatten()
-            .zip(reference.pixels.iter().flatten());
-        let rel_mse = squares
-            .map(|(a, b)| f64::from((a - b) * (a - b)) / (f64::from(b * b) + 0.01))
-            .sum::<f64>()
-            / (3 * self.pixels.len()) as f64;
+        let shown = |picture: &Picture| View::standard().bytes(&picture.pixels);
+        let (w, h) = (self.width as u32, self.height as u32);
         Ok(Difference {
             channel_ratio: std::array::from_fn(|c| a[c] / b[c]),
-            flip_mean: self.flip(reference),
-            rel_mse,
+            flip_mean: measure::flip_mean(w, h, &shown(self), &shown(reference)),
+            rel_mse: measure::rel_mse(&self.pixels, &reference.pixels),
         })
-    }
-
-    /// The picture as a Standard view transform shows it: clipped sRGB, 8 bits.
-    fn display(&self) -> Vec<u8> {
-        let encode = |x: f32| {
-            let x = x.clamp(0.0, 1.0);
-            let y = if x <= 0.003_130_8 {
-                12.92 * x
-            } else {
-                1.055 * x.powf(1.0 / 2.4) - 0.055
-            };
-            (y * 255.0 + 0.5) as u8
-        };
-        self.pixels.iter().flatten().map(|&x| encode(x)).collect()
-    }
-
-    fn flip(&self, reference: &Picture) -> f32 {
-        let (w, h) = (self.width as u32, self.height as u32);
-        let image = |p: &Picture| nv_flip::FlipImageRgb8::with_data(w, h, &p.display());
-        let error = nv_flip::flip(
-            image(reference),
-            image(self),
-            nv_flip::DEFAULT_PIXELS_PER_DEGREE,
-        );
-        nv_flip::FlipPool::from_image(&error).mean()
     }
 }

@@ -1,7 +1,7 @@
 //! `cargo xtask reference`: a Matcha picture against a stored Cycles picture.
 
-use crate::matcha;
 use crate::picture::Picture;
+use crate::program;
 use anyhow::{Context, Result, ensure};
 use std::path::{Path, PathBuf};
 
@@ -26,11 +26,11 @@ pub struct Arguments {
 }
 
 fn render(arguments: &Arguments, reference: &Picture) -> Result<()> {
-    matcha::build()?;
+    program::build()?;
     if let Some(folder) = arguments.output.parent() {
         std::fs::create_dir_all(folder)?;
     }
-    let status = matcha::command()
+    let status = program::command()
         .arg("render")
         .arg(&arguments.scene)
         .arg("-o")

@@ -170,7 +170,10 @@ impl Prepared {
     }
 
     /// Whether a material may emit.
-    pub(crate) fn emits(&self, material: u32) -> bool {
+    ///
+    /// # Panics
+    /// If there is no such material.
+    pub fn emits(&self, material: u32) -> bool {
         self.emits[material as usize]
     }
 

@@ -1,5 +1,5 @@
 //! The `matcha` command: scenes in, pictures and comparisons out. What other tools need
-//! of it, pictures and their measures, is public.
+//! of it, pictures, their measures and how errors are said, is public.
 
 mod arguments;
 mod command;
@@ -36,7 +36,7 @@ pub fn main() -> ExitCode {
         Ok(End::Done) => ExitCode::SUCCESS,
         Ok(End::Interrupted) => ExitCode::from(130),
         Err(error) => {
-            eprintln!("matcha: {}", one_line(&sentence(&error)));
+            eprintln!("matcha: {}", sentence(&error));
             ExitCode::from(2)
         }
     }
@@ -72,8 +72,8 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
     ExitCode::from(2)
 }
 
-/// An error with its causes, each once: some errors say their cause themselves.
-fn sentence(error: &anyhow::Error) -> String {
+/// An error with its causes on one line, each once: some errors say their cause themselves.
+pub fn sentence(error: &anyhow::Error) -> String {
     let mut sentence = String::new();
     for cause in error.chain().map(ToString::to_string) {
         if sentence.is_empty() {
@@ -82,7 +82,7 @@ fn sentence(error: &anyhow::Error) -> String {
             sentence += &format!(": {cause}");
         }
     }
-    sentence
+    one_line(&sentence)
 }
 
 fn one_line(text: &str) -> String {
@@ -111,11 +111,11 @@ mod tests {
     use anyhow::Context;
 
     #[test]
-    fn causes_are_said_once() {
+    fn causes_are_said_once_and_on_one_line() {
         let missing = || Err::<(), _>(std::io::Error::other("disk full"));
         let plain = missing().context("a.png: cannot be written").unwrap_err();
         assert_eq!(sentence(&plain), "a.png: cannot be written: disk full");
-        let said = missing().context("a.png: disk full").unwrap_err();
+        let said = missing().context("a.png:\n disk full").unwrap_err();
         assert_eq!(sentence(&said), "a.png: disk full");
     }
 }

@@ -15,7 +15,6 @@ use matcha_render::device::path_start::path_start;
 use matcha_render::device::path_state::{FilmSums, Path, PathHit, film_add, path_add_met};
 use matcha_render::device::path_step::path_reaches;
 use matcha_render::flat::NO_PROGRAM;
-use matcha_shade::program::Program;
 
 impl Twin {
     /// Puts finished paths on the film and starts the next ones.
@@ -61,8 +60,7 @@ impl Twin {
             };
             let geometry = self.scene.geometry();
             let material = geometry_material(geometry, hit.instance, hit.primitive);
-            let source = self.scene.program(material);
-            let emits = source.is_some_and(Program::has_emission);
+            let emits = self.scene.prepared().emits(material);
             if path_reaches(&mut path, emits, self.scene.rules()) {
                 change_path(slots, slot, |old| old.flags = path.flags);
                 slots.push(QUEUE_HITS, slot);

@@ -65,13 +65,13 @@ pub(super) fn add(
 
 /// A spot's cone stretches with its object, as in Cycles.
 fn transform(source: &schema::Light, placed: &Placed) -> Affine3A {
-    let stretched = to_z_up_aimed_scaled(placed.world);
-    let flat = stretched.matrix3.determinant() == 0.0;
-    if source.kind == "SPOT" && !flat {
-        stretched
-    } else {
-        to_z_up_aimed(placed.world)
+    if source.kind == "SPOT" {
+        let stretched = to_z_up_aimed_scaled(placed.world);
+        if stretched.matrix3.determinant() != 0.0 {
+            return stretched;
+        }
     }
+    to_z_up_aimed(placed.world)
 }
 
 /// Cycles lets an area light's sides be slanted.

@@ -114,11 +114,12 @@ pub(crate) fn to_z_up_aimed_scaled(world: DMat4) -> Affine3A {
 
 /// The same without scale and shear.
 pub(crate) fn to_z_up_aimed(world: DMat4) -> Affine3A {
-    let column = |i: usize| z_up(world.col(i).truncate().as_vec3());
-    let z = column(2).try_normalize().unwrap_or(Vec3::Z);
-    let x = column(1)
+    let placed = to_z_up_aimed_scaled(world);
+    let [up, back] = [placed.matrix3.y_axis, placed.matrix3.z_axis].map(Vec3::from);
+    let z = back.try_normalize().unwrap_or(Vec3::Z);
+    let x = up
         .cross(z)
         .try_normalize()
         .unwrap_or_else(|| z.any_orthonormal_vector());
-    Affine3A::from_mat3_translation(Mat3::from_cols(x, z.cross(x), z), column(3))
+    Affine3A::from_mat3_translation(Mat3::from_cols(x, z.cross(x), z), placed.translation.into())
 }
