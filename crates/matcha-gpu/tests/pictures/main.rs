@@ -103,7 +103,7 @@ fn the_devices_picture_is_the_processors() {
 /// The same with the device's ray queries. Drivers on the processor compile all kernels once more
 /// for it, which takes minutes; their rays are tested in `tests/ray_queries`.
 #[test]
-#[ignore = "compiles for minutes on a driver on the processor"]
+#[ignore = "compiles for minutes on older drivers on the processor"]
 fn a_picture_by_ray_queries_is_the_processors() {
     let Some(device) = testing::ray_query_device() else {
         return;
