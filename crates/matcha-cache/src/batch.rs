@@ -149,7 +149,7 @@ impl Table {
         let n = texels[0].len();
         keys.cell.resize(n, 0);
         keys.rest.resize(n, 0);
-        (self.hash_rows.0)(node, self.size().cells as u32, texels, keys);
+        (self.hash_rows.0)(node, self.cells_in_use() as u32, texels, keys);
         for &number in &keys.cell {
             prefetch(self.cell(number));
         }

@@ -27,10 +27,12 @@ pub fn node_seed(material: u32, node: u32, part: u32) -> NodeSeed {
     seed_of_node(material, node, part)
 }
 
-/// A fixed table of `cells × entries` entries, shared by all threads.
+/// A fixed table of `cells × entries` entries, shared by all threads. Keys go to the cells that
+/// are in use, at first all; memory of the others is never touched.
 pub struct Table {
     storage: Storage,
     size: TableSize,
+    cells_in_use: u64,
     pub(crate) hash_rows: HashRows,
 }
 
@@ -62,33 +64,43 @@ impl Table {
         Ok(Self {
             storage: Storage::new(length)?,
             size,
+            cells_in_use: size.cells,
             hash_rows: HashRows::for_this_cpu(),
         })
     }
 
-    /// Takes the table's memory from the system now, on all cores, instead of while it is
-    /// filled: keys spread over all of it, so nearly all is needed soon, and clearing
-    /// 763 MiB takes as long as a few million look-ups.
+    /// The same of which the first `cells` cells are in use, as after [`Table::use_cells`].
     #[cfg(not(loom))]
-    pub fn populate(&self) {
-        const WORDS_OF_A_PAGE: usize = 4096 / 8;
-        let words = self.storage.words();
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        std::thread::scope(|scope| {
-            for part in words.chunks(words.len().div_ceil(threads)) {
-                // A write that changes nothing: a read would not make the page ours, and
-                // arithmetic that changes nothing is compiled to a read.
-                let touch = |word: &AtomicU64| {
-                    word.compare_exchange(EMPTY, EMPTY, Ordering::Relaxed, Ordering::Relaxed)
-                };
-                scope.spawn(move || {
-                    part.iter()
-                        .step_by(WORDS_OF_A_PAGE)
-                        .map(touch)
-                        .for_each(drop)
-                });
-            }
-        });
+    pub fn with_cells_in_use(size: TableSize, cells: u64) -> Result<Self, CacheError> {
+        let mut table = Self::new(size)?;
+        // Nothing was written yet, so nothing is to be cleared.
+        table.cells_in_use = 0;
+        table.use_cells(cells);
+        Ok(table)
+    }
+
+    /// Number of cells that keys go to.
+    pub fn cells_in_use(&self) -> u64 {
+        self.cells_in_use
+    }
+
+    /// Empties the table, and lets keys go to its first `cells` cells from now on, at least one
+    /// and at most all. Their memory is taken from the system now, on all cores, instead of while
+    /// they are filled: keys spread over all of it, so nearly all is needed soon.
+    #[cfg(not(loom))]
+    pub fn use_cells(&mut self, cells: u64) {
+        let before = core::mem::replace(&mut self.cells_in_use, cells.clamp(1, self.size.cells));
+        let now = self.cells_in_use;
+        let (heads, tails) = self.heads_and_tails();
+        for (words, of_a_cell) in [(heads, self.head()), (tails, self.tail())] {
+            let [before, now] = [before, now].map(|cells| cells as usize * of_a_cell);
+            let (used, rest) = words.split_at(before);
+            on_all_cores(used, |part| {
+                part.iter()
+                    .for_each(|word| word.store(EMPTY, Ordering::Relaxed));
+            });
+            on_all_cores(&rest[..now.saturating_sub(before)], take);
+        }
     }
 
     /// Its size.
@@ -136,19 +148,36 @@ impl Table {
     /// The entries of a cell.
     #[inline(always)]
     pub(crate) fn cell(&self, number: u32) -> Cell<'_> {
-        let TableSize { cells, entries } = self.size;
         let number = number as usize;
-        let head = HEAD.min(entries as usize);
-        let tail = entries as usize - head;
-        let (heads, tails) = self.storage.words().split_at(cells as usize * head);
+        let (head, tail) = (self.head(), self.tail());
+        let (heads, tails) = self.heads_and_tails();
         Cell {
             head: &heads[number * head..][..head],
             tail: &tails[number * tail..][..tail],
         }
     }
 
+    /// The first entries of all cells, and the rest of all cells.
+    #[inline(always)]
+    fn heads_and_tails(&self) -> (&[AtomicU64], &[AtomicU64]) {
+        let heads = self.size.cells as usize * self.head();
+        self.storage.words().split_at(heads)
+    }
+
+    /// Number of a cell's entries that lie in one line.
+    #[inline(always)]
+    fn head(&self) -> usize {
+        HEAD.min(self.size.entries as usize)
+    }
+
+    /// Number of a cell's other entries.
+    #[inline(always)]
+    fn tail(&self) -> usize {
+        self.size.entries as usize - self.head()
+    }
+
     fn cell_named(&self, hash: KeyHash) -> Cell<'_> {
-        self.cell(cell_of(hash.cell, self.size.cells as u32))
+        self.cell(cell_of(hash.cell, self.cells_in_use as u32))
     }
 
     fn find(&self, hash: KeyHash) -> Option<u32> {
@@ -157,6 +186,28 @@ impl Table {
 
     fn put(&self, hash: KeyHash, value: u32) -> Insertion {
         self.cell_named(hash).put(hash.fingerprint, value)
+    }
+}
+
+/// Does something with the parts of a list, one for each core.
+#[cfg(not(loom))]
+fn on_all_cores(words: &[AtomicU64], work: impl Fn(&[AtomicU64]) + Sync) {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let part = words.len().div_ceil(threads).max(1);
+    std::thread::scope(|scope| {
+        for part in words.chunks(part) {
+            scope.spawn(|| work(part));
+        }
+    });
+}
+
+/// Takes memory from the system, page by page. A write that changes nothing: a read would not
+/// make the page ours, and arithmetic that changes nothing is compiled to a read.
+#[cfg(not(loom))]
+fn take(words: &[AtomicU64]) {
+    const WORDS_OF_A_PAGE: usize = 4096 / 8;
+    for word in words.iter().step_by(WORDS_OF_A_PAGE) {
+        let _ = word.compare_exchange(EMPTY, EMPTY, Ordering::Relaxed, Ordering::Relaxed);
     }
 }
 
@@ -268,15 +319,39 @@ mod tests {
         assert_eq!(counts.refused, 2);
     }
 
-    #[test]
-    fn populating_changes_nothing() {
-        let table = table(100_000, 3);
+    /// Stores a thousand texels; how many entries are taken then, and how many of the words behind
+    /// the first cells' are.
+    fn fill(table: &Table, cells: usize) -> (u64, usize) {
         let node = node_seed(1, 1, 0);
         let mut counts = CacheCounts::default();
-        table.insert(node, [1, 2, 3], 4, &mut counts);
-        table.populate();
-        assert_eq!(table.count_occupied(), 1);
-        assert_eq!(table.look_up(node, [1, 2, 3], &mut counts), Some(4));
+        for i in 0..1000 {
+            table.insert(node, [0, i % 40, i / 40], i as u32, &mut counts);
+        }
+        let taken = |words: &[AtomicU64], of_a_cell: usize| {
+            let behind = words[cells * of_a_cell..].iter();
+            behind.filter(|w| w.load(Ordering::Relaxed) != 0).count()
+        };
+        let (heads, tails) = table.heads_and_tails();
+        let beyond = taken(heads, table.head()) + taken(tails, table.tail());
+        (table.count_occupied(), beyond)
+    }
+
+    #[test]
+    fn keys_go_to_the_cells_in_use_and_a_change_empties_the_table() {
+        let (cells, entries) = (100_000, 10);
+        let mut table = Table::with_cells_in_use(TableSize { cells, entries }, 70).unwrap();
+        assert_eq!(fill(&table, 70).1, 0);
+        for cells in [50, 1000, 300, 100_000] {
+            table.use_cells(cells);
+            assert_eq!(table.count_occupied(), 0, "{cells}");
+            let (taken, beyond) = fill(&table, cells as usize);
+            assert!(taken > 400, "{taken}");
+            assert_eq!(beyond, 0, "{cells}");
+        }
+        table.use_cells(1 << 40);
+        assert_eq!(table.cells_in_use(), 100_000);
+        table.use_cells(0);
+        assert_eq!(table.cells_in_use(), 1);
     }
 
     #[test]

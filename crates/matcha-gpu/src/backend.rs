@@ -181,6 +181,7 @@ impl Backend for GpuBackend {
         let seconds = self.time.as_secs_f64();
         Statistics {
             seconds,
+            table_seconds: 0.0,
             network_seconds: counted.network_seconds,
             thread_seconds: seconds,
             rays: counted.rays,

@@ -169,6 +169,8 @@ pub struct CacheStatistics {
 pub struct Statistics {
     /// Wall-clock time spent in rendering (preparation excluded), seconds.
     pub seconds: f64,
+    /// Wall-clock time in which the cache's memory was cleared, not in `seconds`. On the CPU.
+    pub table_seconds: f64,
     /// Time spent in evaluating node networks, over all threads, seconds.
     pub network_seconds: f64,
     /// Time spent by all threads, seconds.

@@ -8,22 +8,29 @@ use crate::integrator::worker::Worker;
 use crate::integrator::{Frame, FrameCache};
 use crate::node_cache::CacheLayout;
 use crate::prepare::Prepared;
+use crate::table_use::TableUse;
 use matcha_cache::{CacheCounts, Table, TableSize, available_memory, fitting_size};
 use matcha_shade::compile::CostModel;
 use matcha_shade::program::Program;
 use matcha_shade::vm::Isa;
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// The material cache of a scene.
 struct CpuCache {
     table: Table,
+    cells: TableUse,
+    /// Time in which the table's memory was cleared.
+    clearing: Duration,
     /// For each material.
     layouts: Vec<CacheLayout>,
     level_offset: f32,
 }
+
+/// One tile in so many tells what the cache will have to hold.
+const TELLING_TILES: usize = 16;
 
 /// A prepared scene, its programs and cache, and a film.
 pub struct CpuBackend {
@@ -32,7 +39,9 @@ pub struct CpuBackend {
     cache: Option<CpuCache>,
     pool: rayon::ThreadPool,
     workers: Vec<Mutex<Worker>>,
+    /// Those that tell of all come first.
     tiles: Vec<Tile>,
+    telling_tiles: usize,
     filter: FilterTable,
     film: Film,
     seed: u32,
@@ -52,20 +61,16 @@ impl CpuBackend {
         let programs = programs(&prepared, options)?;
         let [width, height] = prepared.resolution();
         let settings = &prepared.scene().settings;
-        let cache = make_cache(&options.cache, &programs)?;
-        if let Some(cache) = &cache
-            && programs.iter().any(|program| !program.regions().is_empty())
-        {
-            cache.table.populate();
-        }
+        let (tiles, telling_tiles) = telling_first(width, height, pool.current_num_threads());
         Ok(Self {
+            cache: make_cache(&options.cache, &programs)?,
             programs,
-            cache,
             workers: (0..pool.current_num_threads())
                 .map(|_| Mutex::new(Worker::new(&options.schedule)))
                 .collect(),
             pool,
-            tiles: Tile::cover(width, height),
+            tiles,
+            telling_tiles,
             filter: FilterTable::new(settings.filter),
             film: Film::new(width, height, settings.exposure),
             seed: options.seed.unwrap_or(settings.seed),
@@ -79,10 +84,19 @@ impl CpuBackend {
         &self.prepared
     }
 
-    fn cache_statistics(&self, counts: &CacheCounts) -> CacheStatistics {
-        let Some(CpuCache { table, .. }) = &self.cache else {
+    fn cache_counts(&self) -> CacheCounts {
+        let mut counts = CacheCounts::default();
+        for worker in &self.workers {
+            counts += lock(worker).cache_counts();
+        }
+        counts
+    }
+
+    fn cache_statistics(&self) -> CacheStatistics {
+        let Some(CpuCache { table, cells, .. }) = &self.cache else {
             return CacheStatistics::default();
         };
+        let counts = self.cache_counts();
         CacheStatistics {
             lookups: counts.lookups,
             hits: counts.hits,
@@ -90,11 +104,82 @@ impl CpuBackend {
             refused: counts.refused,
             races_lost: counts.lost,
             unencodable: counts.unencodable,
-            occupied: counts.inserts,
+            occupied: cells.entries(counts.inserts),
             capacity: table.size().capacity(),
             bytes: table.size().bytes(),
         }
     }
+
+    /// Decides how many cells of the table are in use, by `decision`, which gets the number of
+    /// values stored so far.
+    fn fit_table(&mut self, decision: impl FnOnce(&mut TableUse, &mut Table, u64)) {
+        let inserts = self.cache_counts().inserts;
+        if let Some(cache) = &mut self.cache {
+            let start = Instant::now();
+            decision(&mut cache.cells, &mut cache.table, inserts);
+            cache.clearing += start.elapsed();
+        }
+    }
+
+    /// How many tiles are to be rendered before the cache's table is fitted to what they tell.
+    fn tiles_to_see(&self) -> usize {
+        match &self.cache {
+            Some(cache) if cache.cells.wants_to_see() => self.telling_tiles,
+            _ => 0,
+        }
+    }
+
+    /// Renders some tiles, and takes the time.
+    fn render_tiles(&mut self, tiles: Range<usize>, samples: &Range<u32>, control: &Control) {
+        let start = Instant::now();
+        let frame = Frame {
+            prepared: &self.prepared,
+            programs: &self.programs,
+            filter: &self.filter,
+            cache: self.cache.as_ref().map(|cache| FrameCache {
+                table: &cache.table,
+                layouts: &cache.layouts,
+                level_offset: cache.level_offset,
+            }),
+            seed: self.seed,
+        };
+        let film = Mutex::new(&mut self.film);
+        let workers = &self.workers;
+        let tiles = &self.tiles[tiles];
+        self.pool.install(|| {
+            tiles.par_iter().with_max_len(1).for_each(|tile| {
+                if control.stopped() {
+                    return;
+                }
+                let mut worker = lock(&workers[rayon::current_thread_index().unwrap_or(0)]);
+                let mut sums = vec![PixelSums::default(); tile.pixels() as usize];
+                worker.render_tile(&frame, tile, samples.clone(), &mut sums);
+                lock(&film).add_tile(tile, &sums);
+                control.add_samples(u64::from(tile.pixels()) * samples.len() as u64);
+            });
+        });
+        self.time += start.elapsed();
+    }
+}
+
+/// What a panicking thread left is still what was counted.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// All tiles; first some from all over the picture, at least one a thread, and their number.
+fn telling_first(width: u32, height: u32, threads: usize) -> (Vec<Tile>, usize) {
+    let all = Tile::cover(width, height);
+    let every = (all.len() / threads.max(1)).clamp(1, TELLING_TILES);
+    let tells = |&(k, _): &(usize, &Tile)| k % every == 0;
+    let telling = all.iter().enumerate().filter(tells);
+    let others = all.iter().enumerate().filter(|tile| !tells(tile));
+    let tiles = telling.chain(others).map(|(_, &tile)| tile).collect();
+    (tiles, all.len().div_ceil(every))
+}
+
+fn pixels(tiles: &[Tile]) -> f64 {
+    tiles.iter().map(|tile| f64::from(tile.pixels())).sum()
 }
 
 /// The programs of the materials, for the instructions that they will run in.
@@ -137,8 +222,12 @@ fn make_cache(mode: &CacheMode, programs: &[Program]) -> Result<Option<CpuCache>
         );
     }
     let layouts = programs.iter().zip(0..);
+    let start = Instant::now();
+    let (table, cells) = TableUse::begin(size)?;
     Ok(Some(CpuCache {
-        table: Table::new(size)?,
+        table,
+        cells,
+        clearing: start.elapsed(),
         layouts: layouts
             .map(|(program, material)| CacheLayout::new(material, program))
             .collect(),
@@ -152,41 +241,16 @@ impl Backend for CpuBackend {
     }
 
     fn render(&mut self, range: Range<u32>, control: &Control) -> Result<Duration, RenderError> {
-        let start = Instant::now();
-        let frame = Frame {
-            prepared: &self.prepared,
-            programs: &self.programs,
-            filter: &self.filter,
-            cache: self.cache.as_ref().map(|cache| FrameCache {
-                table: &cache.table,
-                layouts: &cache.layouts,
-                level_offset: cache.level_offset,
-            }),
-            seed: self.seed,
-        };
-        let film = Mutex::new(&mut self.film);
-        let workers = &self.workers;
-        let tiles = &self.tiles;
-        self.pool.install(|| {
-            tiles.par_iter().with_max_len(1).for_each(|tile| {
-                if control.stopped() {
-                    return;
-                }
-                let index = rayon::current_thread_index().unwrap_or(0);
-                let mut worker = workers[index]
-                    .lock()
-                    .unwrap_or_else(PoisonError::into_inner);
-                let mut sums = vec![PixelSums::default(); tile.pixels() as usize];
-                worker.render_tile(&frame, tile, range.clone(), &mut sums);
-                film.lock()
-                    .unwrap_or_else(PoisonError::into_inner)
-                    .add_tile(tile, &sums);
-                control.add_samples(u64::from(tile.pixels()) * range.len() as u64);
-            });
-        });
-        let time = start.elapsed();
-        self.time += time;
-        Ok(time)
+        let before = self.time;
+        self.fit_table(TableUse::keep_room);
+        let seen = self.tiles_to_see();
+        if seen > 0 {
+            self.render_tiles(0..seen, &range, control);
+            let share = pixels(&self.tiles[..seen]) / pixels(&self.tiles);
+            self.fit_table(|cells, table, inserts| cells.foresee(table, inserts, share));
+        }
+        self.render_tiles(seen..self.tiles.len(), &range, control);
+        Ok(self.time - before)
     }
 
     fn film(&self) -> &Film {
@@ -196,19 +260,21 @@ impl Backend for CpuBackend {
     fn statistics(&self) -> Statistics {
         let mut statistics = Statistics {
             seconds: self.time.as_secs_f64(),
+            table_seconds: self
+                .cache
+                .as_ref()
+                .map_or(0.0, |c| c.clearing.as_secs_f64()),
             thread_seconds: self.time.as_secs_f64() * self.workers.len() as f64,
             samples: self.film.total_samples(),
             ..Statistics::default()
         };
-        let mut counts = CacheCounts::default();
         for worker in &self.workers {
-            let worker = worker.lock().unwrap_or_else(PoisonError::into_inner);
+            let worker = lock(worker);
             statistics.network_seconds += worker.network_time().as_secs_f64();
             statistics.rays += worker.counts().rays;
             statistics.shaded += worker.counts().shaded;
-            counts += worker.cache_counts();
         }
-        statistics.cache = self.cache_statistics(&counts);
+        statistics.cache = self.cache_statistics();
         statistics.nodes_found = self.film.total_nodes_found();
         statistics
     }

@@ -15,4 +15,5 @@ pub mod prepare;
 pub mod sampler;
 pub mod scene;
 pub mod surface;
+mod table_use;
 pub mod texture;
