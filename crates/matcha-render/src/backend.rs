@@ -181,7 +181,8 @@ pub struct Statistics {
     pub shaded: u64,
     /// Nodes found in the cache.
     pub nodes_found: u64,
-    /// Pixel samples.
+    /// Pixel samples. `samples` in files are those of one pixel.
+    #[serde(rename = "pixel_samples")]
     pub samples: u64,
     /// The cache; all zero where it is off.
     pub cache: CacheStatistics,

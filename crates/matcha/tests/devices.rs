@@ -257,7 +257,7 @@ fn a_gpu_renders_and_its_times_are_in_the_statistics() {
     let picture = image::open(&output).unwrap().to_rgb8();
     assert!(picture.pixels().any(|p| p.0[0] > 40) && picture.pixels().any(|p| p.0[0] < 20));
     let stats: serde_json::Value = serde_json::from_slice(&std::fs::read(&stats).unwrap()).unwrap();
-    assert_eq!(stats["samples"], 32 * 24 * 2);
+    assert_eq!(stats["pixel_samples"], 32 * 24 * 2);
     assert!(stats["textures"]["bytes_saved"].is_u64(), "{stats}");
     assert!(stats["pipeline_seconds"].as_f64().unwrap() > 0.0);
     let first = stats["first_sample_seconds"].as_f64().unwrap();
