@@ -86,6 +86,11 @@ impl Film {
         self.pixels.len() * size_of::<PixelSums>()
     }
 
+    /// Bytes that a film of some size would take.
+    pub fn bytes_of([width, height]: [u32; 2]) -> u64 {
+        u64::from(width) * u64::from(height) * size_of::<PixelSums>() as u64
+    }
+
     /// Adds sums of the pixel with a number, rows from the top.
     pub fn add_pixel(&mut self, pixel: usize, sums: &PixelSums) {
         self.pixels[pixel].add(sums);

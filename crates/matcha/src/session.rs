@@ -8,9 +8,11 @@ use crate::loading;
 use crate::picture::view::View;
 use crate::progress::Watch;
 use anyhow::{Result, anyhow, bail};
+use matcha_cache::available_memory;
 use matcha_render::backend::{
     Backend, Control, KernelTimes, RenderError, Statistics, TextureMemory,
 };
+use matcha_render::film::Film;
 use matcha_render::prepare::Prepared;
 use serde::Serialize;
 use std::ops::Range;
@@ -97,12 +99,30 @@ impl Loaded {
         options: &Options,
         caches: [Cache; N],
     ) -> Result<[Box<dyn Backend>; N]> {
+        self.refuse_beyond_memory(N as u64)?;
         let caches = caches.map(|cache| options.render_options(cache));
         let backends = device.backends(&self.prepared, caches)?;
         if options.compress_textures {
             log_textures(backends.first().and_then(|b| b.texture_memory()));
         }
         Ok(backends)
+    }
+
+    /// An error if the films of several renderers do not fit into memory, where the program
+    /// would be ended by the system instead, perhaps after hours.
+    fn refuse_beyond_memory(&self, films: u64) -> Result<()> {
+        let [width, height] = self.resolution();
+        // As much again for what is made of a film when it is written.
+        let needed = 2 * films * Film::bytes_of([width, height]);
+        match available_memory() {
+            Some(available) if needed > available => bail!(
+                "a picture of {width} × {height} pixels needs {} MiB, but only {} MiB of memory \
+                 are available: choose a smaller --resolution",
+                needed >> 20,
+                available >> 20
+            ),
+            _ => Ok(()),
+        }
     }
 
     /// Picture size, pixels.

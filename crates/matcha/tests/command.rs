@@ -217,6 +217,20 @@ fn a_cache_beyond_memory_is_refused() {
 }
 
 #[test]
+fn a_picture_beyond_memory_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene::write(folder.path());
+    let output = folder.path().join("a.png");
+    let arguments = ["render", text(&scene), "-o", text(&output)];
+    let huge = ["--resolution", "65536x65536", "--cells", "100"];
+    assert_refused(
+        &[&arguments[..], &huge].concat(),
+        "choose a smaller --resolution",
+    );
+    assert!(!output.exists());
+}
+
+#[test]
 fn help_and_version_are_no_errors() {
     for arguments in [&["--help"][..], &["--version"], &["compare", "--help"]] {
         let output = matcha(arguments);
