@@ -71,7 +71,8 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     let write = || -> std::io::Result<()> {
         let folder = folder_of(path);
         let mut file = part_file().tempfile_in(folder)?;
-        file.write_all(bytes)?;
+        // The file itself: errors of its wrapper name the part file, which nobody asked for.
+        file.as_file_mut().write_all(bytes)?;
         file.as_file().sync_all()?;
         file.persist(path).map_err(|error| error.error)?;
         Ok(())
