@@ -15,6 +15,7 @@ mod session;
 use arguments::{Arguments, Command};
 use clap::Parser;
 use clap::error::ErrorKind;
+use std::io::Write;
 use std::process::ExitCode;
 
 /// Runs the command line of this process. Every error is one sentence on standard
@@ -36,7 +37,7 @@ pub fn main() -> ExitCode {
         Ok(End::Done) => ExitCode::SUCCESS,
         Ok(End::Interrupted) => ExitCode::from(130),
         Err(error) => {
-            eprintln!("matcha: {}", sentence(&error));
+            say(&sentence(&error));
             ExitCode::from(2)
         }
     }
@@ -56,7 +57,7 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        eprintln!("matcha: no command was given; there are render, compare, inspect and devices");
+        say("no command was given; there are render, compare, inspect and devices");
         return ExitCode::from(2);
     }
     let text = error.render().to_string();
@@ -68,7 +69,7 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
         .collect();
     let sentence = sentence.join(" ");
     let sentence = sentence.strip_prefix("error: ").unwrap_or(&sentence);
-    eprintln!("matcha: {}", one_line(sentence));
+    say(sentence);
     ExitCode::from(2)
 }
 
@@ -85,6 +86,12 @@ pub fn sentence(error: &anyhow::Error) -> String {
     one_line(&sentence)
 }
 
+/// One line on standard error. Where nobody listens, the exit code has to do: `eprintln!`
+/// would panic.
+fn say(text: &str) {
+    let _ = writeln!(std::io::stderr(), "matcha: {}", one_line(text));
+}
+
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -99,6 +106,8 @@ fn start_log() {
     tracing_subscriber::fmt()
         .with_env_filter(filter)
         .with_writer(std::io::stderr)
+        // It would say by `eprintln!` that standard error is closed, and panic.
+        .log_internal_errors(false)
         .without_time()
         .with_target(false)
         .compact()

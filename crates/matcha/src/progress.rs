@@ -2,7 +2,7 @@
 
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use matcha_render::backend::Control;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
@@ -84,7 +84,9 @@ impl Display {
             Display::Lines { total, start, last } => {
                 if last.elapsed() >= LINE_EVERY && samples > 0 {
                     *last = Instant::now();
-                    eprintln!("{}", line(samples, *total, start.elapsed()));
+                    // Not `eprintln!`, which would panic where nobody listens any more.
+                    let line = line(samples, *total, start.elapsed());
+                    let _ = writeln!(std::io::stderr(), "{line}");
                 }
             }
         }

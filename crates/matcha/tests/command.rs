@@ -425,3 +425,37 @@ fn an_interrupted_rendering_saves_what_is_there() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(output.exists());
 }
+
+#[cfg(unix)]
+#[test]
+fn pipes_that_nobody_reads_are_no_panic() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene::write(folder.path());
+    let (picture, pictures) = (folder.path().join("a.png"), folder.path().join("out"));
+    let small = ["--samples", "1", "--resolution", "8x8", "--cells", "100"];
+    let render = [&["render", text(&scene), "-o", text(&picture)], &small[..]].concat();
+    let compare = [
+        &["compare", text(&scene), "-o", text(&pictures)],
+        &small[..],
+    ]
+    .concat();
+    let cases = [
+        (render, 0),
+        (compare, 0),
+        (vec!["inspect", text(&scene)], 0),
+        (vec!["devices"], 0),
+        (vec!["inspect", "none.glb"], 2),
+        (vec!["bake"], 2),
+    ];
+    for (arguments, code) in cases {
+        // Dropping the reading ends closes the pipes before anything is said.
+        let closed = || std::io::pipe().unwrap().1;
+        let status = Command::new(env!("CARGO_BIN_EXE_matcha"))
+            .args(&arguments)
+            .stdout(closed())
+            .stderr(closed())
+            .status()
+            .unwrap();
+        assert_eq!(status.code(), Some(code), "{arguments:?}");
+    }
+}

@@ -41,8 +41,11 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<End> {
         };
         output::write_json(stats, &both)?;
     }
-    println!("{}", report.summary());
-    println!("pictures and report are in {}", arguments.output.display());
+    output::print(&format!(
+        "{}\npictures and report are in {}\n",
+        report.summary(),
+        arguments.output.display()
+    ))?;
     outcome.end(&arguments.output)
 }
 

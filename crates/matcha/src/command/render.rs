@@ -26,13 +26,13 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<End> {
         output::write_json(stats, &FullStatistics::of(&loaded, backend.as_ref()))?;
     }
     let statistics = backend.statistics();
-    println!(
-        "{}: {} samples a pixel in {:.2} s on {}",
+    output::print(&format!(
+        "{}: {} samples a pixel in {:.2} s on {}\n",
         arguments.output.display(),
         backend.film().samples(),
         statistics.seconds,
         backend.device()
-    );
+    ))?;
     outcome.end(&arguments.output)
 }
 
