@@ -141,7 +141,7 @@ fn choose_report(reports: &[&AdapterReport], wanted: &Wanted) -> Result<usize, G
         }
         let all: Vec<String> = reports
             .iter()
-            .map(|r| format!("{}: {}", r.number, r.name))
+            .map(|r| format!("gpu:{} ({})", r.number, r.name))
             .collect();
         return Err(GpuError::Unknown {
             asked,
@@ -328,7 +328,7 @@ mod tests {
         let error = chosen(&all, &Wanted::Named("New".into())).expect_err("there is none");
         assert_eq!(
             error.to_string(),
-            "no graphics adapter is called \"New\"; there are 0: Old"
+            "no graphics adapter is called \"New\"; there are gpu:0 (Old)"
         );
     }
 }
