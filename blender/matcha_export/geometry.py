@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import attributes, axes
+from . import attributes, axes, islands
 
 
 @dataclass
@@ -17,6 +17,7 @@ class Geometry:
     extras: list  # (name, meaning, array)
     triangles: list  # (slot, indices) of the slots in use
     generated: np.ndarray | None
+    islands: np.ndarray | None
 
 
 def field(collection, name, width, dtype=np.float32):
@@ -44,6 +45,9 @@ def extract(mesh, slot_count, needs, groups, warn):
     uvs = [(layer.name, uv_corners(layer)) for layer in mesh.uv_layers]
     extras = wanted(mesh, needs, groups, vertices, faces)
     columns = [vertices[:, None], normals, *(a for _, a in uvs), *(a for _, _, a in extras)]
+    of_islands = islands.random(mesh) if needs.islands else None
+    if of_islands is not None:
+        columns.append(of_islands[:, None])
     keep, inverse = distinct(columns)
 
     positions = field(mesh.vertices, "co", 3)
@@ -58,6 +62,7 @@ def extract(mesh, slot_count, needs, groups, warn):
         extras=[(name, kind, array[keep]) for name, kind, array in extras],
         triangles=by_slot(inverse[corners], np.clip(slots, 0, max(slot_count - 1, 0))),
         generated=generated(mesh, positions, of_vertex) if needs.generated else None,
+        islands=None if of_islands is None else of_islands[keep],
     )
 
 

@@ -78,6 +78,9 @@ class Meshes:
         if parts.generated is not None:
             semantics["_GENERATED"] = glb.accessor(parts.generated)
             about["generated"] = "_GENERATED"
+        if parts.islands is not None:
+            semantics["_ISLAND"] = glb.accessor(parts.islands)
+            about["island"] = "_ISLAND"
         return semantics, about
 
 

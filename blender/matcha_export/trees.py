@@ -21,12 +21,14 @@ class Needs:
     attributes: set = field(default_factory=set)
     active_color: bool = False
     generated: bool = False
+    islands: bool = False
 
     def include(self, other):
         """Adds another tree's needs."""
         self.attributes |= other.attributes
         self.active_color |= other.active_color
         self.generated |= other.generated
+        self.islands |= other.islands
 
 
 class Trees:
@@ -203,6 +205,8 @@ def note_needs(node, needs, linked):
         needs.attributes.add(node.uv_map)
     elif kind == "ShaderNodeTexCoord":
         needs.generated |= any(s.is_linked for s in node.outputs if s.identifier == "Generated")
+    elif kind == "ShaderNodeNewGeometry":
+        needs.islands |= node.outputs["Random Per Island"].is_linked
     elif kind.startswith("ShaderNodeTex") and kind not in IMAGE_NODES:
         vector = node.inputs.get("Vector")
         needs.generated |= vector is not None and vector.as_pointer() not in linked

@@ -4,6 +4,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
+from matcha_export import islands
+
 from .exported import NAME, SceneTest
 
 
@@ -106,6 +108,18 @@ class Geometry(SceneTest):
         np.testing.assert_allclose(file.vertex(0, entries["bytes"]["semantic"])[:, :3], linear, rtol=1e-3)
         heights = file.vertex(0, entries["heights"]["semantic"])
         self.assertEqual(sorted(heights.ravel()), [1, 2, 3, 4])
+
+    def test_islands_are_numbered_as_in_cycles(self):
+        # Roots of the trees that these edges make: 1 (joined first), then 3.
+        self.assertEqual(islands.join(np.array([[1, 0], [3, 4], [4, 2]]), 5), [1, 1, 3, 3, 3])
+        tree, color = self.surface()
+        node = tree.nodes.new("ShaderNodeNewGeometry")
+        tree.links.new(node.outputs["Random Per Island"], color)
+        file = self.export()
+        self.assertEqual(file.json["meshes"][0]["extensions"][NAME]["island"], "_ISLAND")
+        values = file.vertex(0, "_ISLAND").ravel()
+        self.assertEqual(len(set(values)), 1)
+        self.assertTrue(0.0 <= values[0] <= 1.0)
 
     def test_generated_coordinates(self):
         self.add("quad", self.quad())

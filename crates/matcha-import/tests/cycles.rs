@@ -37,9 +37,12 @@ fn everything_arrives() {
             scene.materials[0].pass_index,
             scene.materials[0].sample_emission
         ),
-        (3.0, false)
+        (3.0, None)
     );
-    assert!(scene.materials[1].sample_emission);
+    assert_eq!(
+        scene.materials[1].sample_emission,
+        Some(matcha_render::scene::Sides::Back)
+    );
     assert_eq!(
         (
             scene.trees.len(),

@@ -397,7 +397,7 @@ fn materials_with_their_extensions() {
     let material = gltf_material(&scene, 0);
     assert_eq!(material.alpha, GltfAlpha::Mask(0.25));
     assert_eq!(material.emission, Vec3::new(5.0, 0.0, 0.0));
-    assert!(scene.materials[0].sample_emission);
+    assert!(scene.materials[0].sample_emission.is_some());
     assert_eq!((material.ior, material.transmission), (1.33, 0.75));
     assert_eq!(material.specular, (0.5, Vec3::new(1.0, 0.5, 0.0)));
     assert_eq!((material.metallic, material.roughness), (0.1, 0.2));

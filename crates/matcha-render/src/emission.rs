@@ -14,7 +14,7 @@ const PROBES: usize = 256;
 /// Columns of the world's importance map where its author names none.
 const MAP_WIDTH: u32 = 1024;
 
-/// Emission of every material that emits.
+/// Emission of every material that emits where it is sampled.
 pub fn of_materials(prepared: &Prepared) -> Vec<Option<MaterialEmission>> {
     let programs = match prepared.programs(false) {
         Ok(programs) => programs,
@@ -43,16 +43,26 @@ pub fn of_materials(prepared: &Prepared) -> Vec<Option<MaterialEmission>> {
                 .closures
                 .iter()
                 .any(|c| matches!(c.kind, ClosureKind::Principled(_)));
-            match constant_radiance(program) {
-                Some(radiance) if plain => Some(MaterialEmission {
+            let emission = match constant_radiance(program) {
+                Some(radiance) if plain => MaterialEmission {
                     radiance,
                     constant: true,
                     sides: Sides::Both,
-                }),
-                _ => probe(&frame, &mut networks, material as u32, hits),
-            }
+                },
+                _ => probe(&frame, &mut networks, material as u32, hits)?,
+            };
+            where_sampled(
+                emission,
+                prepared.scene().materials[material].sample_emission?,
+            )
         })
         .collect()
+}
+
+/// The emission of the sides that are to be sampled.
+fn where_sampled(emission: MaterialEmission, sampled: Sides) -> Option<MaterialEmission> {
+    let sides = emission.sides.common(sampled)?;
+    Some(MaterialEmission { sides, ..emission })
 }
 
 /// Points spread over the triangles of each material that shines.

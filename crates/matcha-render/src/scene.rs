@@ -2,6 +2,7 @@
 //! while rendering. Blender's conventions throughout: metres, Z up, right-handed,
 //! linear Rec.709, v of texture coordinates up.
 
+pub use crate::light::Sides;
 use glam::{Affine3A, Vec2, Vec3, Vec4};
 use matcha_shade::source::{GltfMaterial, NodeTree};
 use std::sync::Arc;
@@ -64,6 +65,8 @@ pub struct Mesh {
     /// Generated coordinates of each triangle's corners where modifiers moved the vertices
     /// away from them; empty: as the box above gives them.
     pub generated: Vec<[Vec3; 3]>,
+    /// Random Per Island of each triangle where the file has it; empty: a hash of its own.
+    pub islands: Vec<f32>,
 }
 
 impl Mesh {
@@ -165,8 +168,9 @@ pub struct Material {
     pub shader: Shader,
     /// `Material Index` of the object-info node.
     pub pass_index: f32,
-    /// Treated as a light by next-event estimation.
-    pub sample_emission: bool,
+    /// Sides that are treated as lights by next-event estimation. It matters to more than noise
+    /// where a surface that shines casts no shadow: light is taken through it.
+    pub sample_emission: Option<Sides>,
 }
 
 /// The source of a material's look.

@@ -6,7 +6,7 @@ use glam::{Affine3A, Vec3};
 use matcha_render::backend::{Backend, CacheMode, Control, CpuSchedule, RenderOptions};
 use matcha_render::cpu::CpuBackend;
 use matcha_render::prepare::Prepared;
-use matcha_render::scene::{Light, LightShape, Scene, Visibility};
+use matcha_render::scene::{Light, LightShape, Scene, Sides, Visibility};
 use matcha_shade::vm::Isa;
 use scenes::*;
 use std::sync::Arc;
@@ -149,6 +149,33 @@ fn a_light_lights_the_closures_whose_rays_see_it() {
     let other = sun(|v| (v.camera, v.glossy, v.transmission) = (false, false, false));
     let lit = floor_under(other, 0.0);
     assert!((lit - 0.1).abs() < 1e-3, "{lit}");
+}
+
+/// Mean of a floor under shining squares at these heights, which face up, shine on both sides and
+/// cast no shadow; only the `sides` are sampled.
+fn floor_under_squares(heights: &[f32], sides: Sides) -> f32 {
+    let mut scene = empty(0.9);
+    let floor = add_material(&mut scene, diffuse([0.5; 3]));
+    add_square(&mut scene, Vec3::ZERO, 50.0, false, floor);
+    let lamp = add_material(&mut scene, emission(1.0));
+    scene.materials[lamp as usize].sample_emission = Some(sides);
+    for height in heights {
+        add_square(&mut scene, Vec3::Z * *height, 1.0, false, lamp);
+        let visibility = &mut scene.instances.last_mut().unwrap().visibility;
+        (visibility.shadow, visibility.camera) = (false, false);
+    }
+    mean(&render(scene, &RenderOptions::default()))
+}
+
+/// What casts no shadow lets sampled light through but not what rays meet by chance: then it
+/// matters which sides are sampled.
+#[test]
+fn only_the_sides_that_are_sampled_shine_through_what_casts_no_shadow() {
+    let one = floor_under_squares(&[1.0], Sides::Both);
+    let hidden = floor_under_squares(&[1.0, 1.1], Sides::Front);
+    let shown = floor_under_squares(&[1.0, 1.1], Sides::Back);
+    assert!((hidden / one - 1.0).abs() < 0.01, "{hidden} {one}");
+    assert!(shown / one > 1.2, "{shown} {one}");
 }
 
 /// The same seed gives the same bits whatever the number of threads.

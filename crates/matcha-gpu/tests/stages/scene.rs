@@ -48,7 +48,7 @@ fn gltf(scene: &mut Scene, base_color: Vec4, metallic: f32, transmission: f32) -
             vertex_color: None,
         })),
         pass_index: 0.0,
-        sample_emission: true,
+        sample_emission: Some(Sides::Both),
     });
     scene.materials.len() as u32 - 1
 }

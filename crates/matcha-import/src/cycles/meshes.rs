@@ -79,6 +79,7 @@ fn mesh(
         names,
         slots,
         generated: about.generated.clone(),
+        island: about.island.clone(),
     };
     let named = Naming {
         uv: naming.uv,

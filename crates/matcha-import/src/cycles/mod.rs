@@ -178,7 +178,7 @@ fn build_materials<'a>(
                 name: material_name(document, m),
                 shader: Shader::Cycles(extension.tree),
                 pass_index: extension.pass_index,
-                sample_emission: extension.emission_sampling.as_deref() != Some("NONE"),
+                sample_emission: extension.sampled_sides(),
             },
             None => Materials::single(document, m, textures, uv_names, report)?,
         });

@@ -1,7 +1,7 @@
 //! The extension's objects, as `docs/gltf-extension` specifies them. Trees, nodes and
 //! sockets are in `matcha_shade::source`.
 
-use matcha_render::scene;
+use matcha_render::scene::{self, Sides};
 use matcha_shade::source::NodeTree;
 use serde::Deserialize;
 
@@ -45,6 +45,17 @@ pub(super) struct Material {
     pub use_bump_map_correction: bool,
 }
 
+impl Material {
+    pub fn sampled_sides(&self) -> Option<Sides> {
+        match self.emission_sampling.as_deref() {
+            Some("NONE") => None,
+            Some("FRONT") => Some(Sides::Front),
+            Some("BACK") => Some(Sides::Back),
+            _ => Some(Sides::Both),
+        }
+    }
+}
+
 /// Of a mesh.
 #[derive(Debug, Deserialize)]
 pub(super) struct Mesh {
@@ -62,6 +73,9 @@ pub(super) struct Mesh {
     /// Semantic of Generated coordinates that the box does not give.
     #[serde(default)]
     pub generated: Option<String>,
+    /// Semantic of Random Per Island.
+    #[serde(default)]
+    pub island: Option<String>,
 }
 
 /// A layer of a mesh and the semantic under which glTF has it.

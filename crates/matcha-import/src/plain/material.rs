@@ -9,7 +9,7 @@ use glam::{Vec3, Vec4};
 use gltf::json::extensions::material::Material as Extensions;
 use gltf::json::material::{AlphaMode, Material as GltfSource, NormalTexture};
 use gltf::json::validation::Checked as Valid;
-use matcha_render::scene::{Material, Shader};
+use matcha_render::scene::{Material, Shader, Sides};
 use matcha_shade::source::{GltfAlpha, GltfMaterial};
 use std::collections::HashMap;
 
@@ -142,7 +142,7 @@ impl Reader<'_, '_> {
         check_finite(&material, number)?;
         Ok(Material {
             name,
-            sample_emission: material.emission != Vec3::ZERO,
+            sample_emission: (material.emission != Vec3::ZERO).then_some(Sides::Both),
             shader: Shader::Gltf(Box::new(material)),
             pass_index: 0.0,
         })

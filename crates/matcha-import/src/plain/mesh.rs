@@ -32,6 +32,8 @@ pub(crate) struct Known {
     pub slots: Vec<u16>,
     /// The semantic of Generated coordinates.
     pub generated: Option<String>,
+    /// Semantic of Random Per Island.
+    pub island: Option<String>,
 }
 
 impl Naming<'_> {
@@ -40,6 +42,11 @@ impl Naming<'_> {
             Some(known) => known.names.get(semantic).cloned(),
             None => Some(semantic.to_owned()),
         }
+    }
+
+    fn is_island(&self, semantic: &str) -> bool {
+        self.known
+            .is_some_and(|known| known.island.as_deref() == Some(semantic))
     }
 
     fn is_generated(&self, semantic: &str) -> bool {
@@ -261,6 +268,9 @@ impl MeshBuilder {
                 Semantic::Extras(_) if naming.is_generated(&name) => {
                     self.generated(document, accessor, &run)?;
                 }
+                Semantic::Extras(_) if naming.is_island(&name) => {
+                    self.islands(document, accessor, &run)?;
+                }
                 Semantic::Colors(_) | Semantic::Extras(_) => {
                     self.colored |= name == VERTEX_COLOR;
                     let Some(name) = naming.name(&name) else {
@@ -321,6 +331,17 @@ impl MeshBuilder {
         Ok(())
     }
 
+    fn islands(&mut self, document: &Document<'_>, accessor: usize, run: &Run<'_>) -> Checked<()> {
+        let values = vertex_values::<1>(document, accessor, run, "random numbers of islands")?;
+        self.mesh.islands.resize(run.first, 0.0);
+        for triangle in run.triangles {
+            let [value] = values[triangle[0] as usize];
+            let value = finite(value, f32::is_finite, 0.0, &mut self.not_finite);
+            self.mesh.islands.push(value);
+        }
+        Ok(())
+    }
+
     /// Flat normals for the triangles before `end` that have none.
     fn fill_flat(&mut self, end: usize) {
         for face in self.mesh.corner_normals.len()..end {
@@ -353,6 +374,9 @@ impl MeshBuilder {
         }
         if !self.mesh.generated.is_empty() {
             self.mesh.generated.resize(total, [Vec3::ZERO; 3]);
+        }
+        if !self.mesh.islands.is_empty() {
+            self.mesh.islands.resize(total, 0.0);
         }
         if self.mesh.slots.iter().all(|&slot| slot == 0) {
             self.mesh.slots = Vec::new();

@@ -156,7 +156,7 @@ pub fn cycles() -> Gltf {
     file.json["images"] = json!([{"bufferView": picture, "mimeType": "image/png", "name": "wood"}]);
     file.json["materials"] = json!([
         {"name": "Oak", "extensions": {"MATCHA_cycles": {"tree": 0, "pass_index": 3, "emission_sampling": "NONE"}}},
-        {"name": "Elm", "extensions": {"MATCHA_cycles": {"tree": 0}}}
+        {"name": "Elm", "extensions": {"MATCHA_cycles": {"tree": 0, "emission_sampling": "BACK"}}}
     ]);
     file.primitive()["material"] = json!(1);
     file.primitive()["extensions"] = json!({"MATCHA_cycles": {"slot": 1}});

@@ -35,7 +35,7 @@ pub fn scene(triangles: &[[Vec3; 3]], lights: Vec<Light>) -> Scene {
         name: "lamp".into(),
         shader: Shader::Cycles(0),
         pass_index: 0.0,
-        sample_emission: true,
+        sample_emission: Some(Sides::Both),
     });
     scene.meshes.push(Mesh {
         positions: triangles.iter().flatten().copied().collect(),

@@ -28,6 +28,16 @@ pub enum Sides {
     Back,
 }
 
+impl Sides {
+    /// The sides that are among both.
+    pub fn common(self, other: Self) -> Option<Self> {
+        match (self, other) {
+            (Self::Both, side) | (side, Self::Both) => Some(side),
+            (a, b) => (a == b).then_some(a),
+        }
+    }
+}
+
 /// What the renderer knows of a material's emission before it renders.
 #[derive(Clone, Copy, Debug)]
 pub struct MaterialEmission {
@@ -35,7 +45,7 @@ pub struct MaterialEmission {
     pub radiance: Vec3,
     /// The radiance is the same everywhere and in every direction.
     pub constant: bool,
-    /// Where it leaves.
+    /// Where it leaves and is sampled.
     pub sides: Sides,
 }
 
@@ -226,7 +236,7 @@ fn sampled(scene: &Scene, emission: &[Option<MaterialEmission>], material: Optio
     let wanted = scene
         .materials
         .get(index)
-        .is_some_and(|m| m.sample_emission);
+        .is_some_and(|m| m.sample_emission.is_some());
     let shines = !emission.constant || emission.radiance != Vec3::ZERO;
     wanted && shines && emission.radiance.is_finite()
 }

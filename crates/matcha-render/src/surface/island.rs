@@ -13,9 +13,12 @@ fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
 }
 
 /// A number in [0, 1] per triangle, the same for all triangles of an island: a hash of the
-/// island's least vertex (Cycles hashes a vertex of the island too; which one depends on its
-/// edges' order).
+/// island's least vertex where the file does not say (Cycles hashes a vertex of the island too;
+/// which one depends on its edges' order, which only an exporter knows).
 pub(super) fn random_per_island(mesh: &Mesh) -> Vec<f32> {
+    if mesh.islands.len() == mesh.indices.len() {
+        return mesh.islands.clone();
+    }
     let mut parents: Vec<u32> = (0..mesh.positions.len() as u32).collect();
     for triangle in &mesh.indices {
         for vertex in &triangle[1..] {

@@ -60,7 +60,7 @@ fn scene(transform: Affine3A) -> Scene {
             name: "m".into(),
             shader: Shader::Cycles(0),
             pass_index: 9.0,
-            sample_emission: true,
+            sample_emission: Some(crate::scene::Sides::Both),
         }],
         uv_names: vec!["".into(), "UVMap".into(), "absent".into()],
         attribute_names: vec!["Col".into(), "absent".into()],

@@ -164,7 +164,7 @@ pub fn add_material(scene: &mut Scene, tree: NodeTree) -> u32 {
         name: format!("material {}", scene.materials.len()),
         shader: Shader::Cycles(scene.trees.len() as u32 - 1),
         pass_index: 0.0,
-        sample_emission: true,
+        sample_emission: Some(Sides::Both),
     });
     scene.materials.len() as u32 - 1
 }

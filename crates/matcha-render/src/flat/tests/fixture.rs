@@ -154,7 +154,7 @@ pub fn scene() -> Scene {
         name: "material".into(),
         shader: Shader::Cycles(0),
         pass_index: 10.0 + i as f32,
-        sample_emission: true,
+        sample_emission: Some(crate::scene::Sides::Both),
     };
     Scene {
         meshes,
