@@ -45,6 +45,7 @@ class Images:
             entry["missing"] = True
             return entry
         entry["mime"] = mime
+        entry["alpha_mode"] = alpha_mode(image, mime, warn)
         if mime in STANDARD:
             entry["source"] = self._standard(data, mime, image.name)
         else:
@@ -57,6 +58,25 @@ class Images:
             image = {"bufferView": view, "mimeType": mime, "name": name}
             self._gltf_images[view] = self.glb.append("images", image)
         return self._gltf_images[view]
+
+
+def is_packed(image):
+    return image.packed_file is not None or any(packed.packed_file for packed in image.packed_files)
+
+
+def alpha_mode(image, mime, warn):
+    """How Cycles takes the picture's alpha.
+
+    It reads WebP files as if their colour were multiplied by alpha, whatever the image says; packed
+    ones come from Blender.
+    """
+    if mime != "image/webp" or image.alpha_mode not in {"STRAIGHT", "PREMUL"}:
+        return image.alpha_mode
+    if not is_packed(image):
+        return "PREMUL"
+    if image.alpha_mode == "PREMUL":
+        warn(f"image {image.name} is a packed WebP with premultiplied alpha; straight alpha is used")
+    return "STRAIGHT"
 
 
 def contents(image, image_user):

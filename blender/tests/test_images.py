@@ -6,7 +6,7 @@ import tempfile
 import bpy
 import numpy as np
 
-from matcha_export import encode
+from matcha_export import encode, images
 
 from .exported import SceneTest
 
@@ -54,6 +54,16 @@ class Images(SceneTest):
         self.textured(image)
         file = self.export()
         self.assertEqual(file.view(file.json["images"][0]["bufferView"]), data)
+
+    def test_webp_files_count_as_multiplied_by_alpha_unless_they_are_packed(self):
+        # The exporter looks at the first bytes only.
+        path = self.file(b"RIFF\0\0\0\0WEBPVP8L", "a.webp")
+        for pack, wanted in ((False, "PREMUL"), (True, "STRAIGHT")):
+            image = bpy.data.images.load(path)
+            image.alpha_mode = "STRAIGHT"
+            if pack:
+                image.pack()
+            self.assertEqual(images.alpha_mode(image, "image/webp", self.fail), wanted)
 
     def test_equal_files_are_stored_once(self):
         data = encode.png(self.picture())
