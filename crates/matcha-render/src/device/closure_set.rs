@@ -198,11 +198,14 @@ pub fn closure_set_normal(set: &LobeSet) -> Vec3 {
     closure_unit(sum, set.frame.n)
 }
 
-/// The `RAY_` bit of the rays that a lobe scatters.
+/// The `RAY_` bits of the rays that a lobe scatters; glass scatters two kinds, and what one of them
+/// sees lights all of it.
 #[inline(always)]
 pub fn lobe_ray_kind(lobe: ClosureLobe) -> u32 {
     if lobe.kind <= LOBE_TRANSLUCENT {
         RAY_DIFFUSE
+    } else if lobe_transmits(lobe) && lobe.reflects != 0.0 {
+        RAY_GLOSSY | RAY_TRANSMISSION
     } else if lobe_transmits(lobe) {
         RAY_TRANSMISSION
     } else {

@@ -48,12 +48,16 @@ pub fn ray_offset_origin(point: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
 
 /// Share of the way to the smooth surface that a shadow ray starts at: all of it where light
 /// grazes the facet, nothing where it comes from well above, since lifting everywhere would
-/// carry rays through thin objects (Cycles' shadow terminator offset, 0.1 by default).
+/// carry rays through thin objects (Cycles' shadow terminator offset, 0.1 by default). Where light
+/// grazes the smooth surface too, both cosines count.
 #[inline]
 pub fn ray_terminator_lift(normal: Vec3, true_normal: Vec3, wi: Vec3) -> f32 {
-    let above_smooth = dot(wi, normal) > 0.0;
-    let lift = clamp(1.0 - dot(wi, true_normal) / RAY_GRAZING, 0.0, 1.0);
-    select(0.0, lift, above_smooth)
+    let smooth = dot(wi, normal);
+    let facet = dot(wi, true_normal);
+    let grazes_facet = clamp(1.0 - facet / RAY_GRAZING, 0.0, 1.0);
+    let grazes_both = clamp(2.0 - (smooth + facet) / RAY_GRAZING, 0.0, 1.0);
+    let lift = select(grazes_facet, grazes_both, smooth < RAY_GRAZING);
+    select(0.0, lift, smooth > 0.0)
 }
 
 /// Start, direction and length of a shadow ray.
@@ -65,6 +69,8 @@ pub struct ShadowSegment {
     pub direction: Vec3,
     /// Length, metres; the largest number towards a distant light.
     pub t_max: f32,
+    /// It starts above its own facet, towards a light below: the facet is in its way.
+    pub meets_own: bool,
 }
 
 /// Where the smooth surface and the facet of a point are.
@@ -74,7 +80,7 @@ pub struct ShadowStart {
     pub position: Vec3,
     /// Where rays start that graze the facet.
     pub shadow_origin: Vec3,
-    /// Shading normal before bump, unit.
+    /// Shading normal before bump, but bent by displacement, unit.
     pub normal: Vec3,
     /// Geometric normal, unit.
     pub true_normal: Vec3,
@@ -87,11 +93,13 @@ pub fn ray_to_light(from: ShadowStart, wi: Vec3, point: Vec3, distant: bool) -> 
     let lift = ray_terminator_lift(from.normal, from.true_normal, wi);
     let start = mix3(from.position, from.shadow_origin, lift);
     let origin = ray_offset_origin(start, from.true_normal, wi);
+    let meets_own = lift > 0.0 && dot(wi, from.true_normal) <= 0.0;
     if distant {
         return ShadowSegment {
             origin,
             direction: wi,
             t_max: MAX,
+            meets_own,
         };
     }
     let to_light = point - origin;
@@ -103,5 +111,6 @@ pub fn ray_to_light(from: ShadowStart, wi: Vec3, point: Vec3, distant: bool) -> 
         origin,
         direction: if long { unit } else { wi },
         t_max: length(to_light) * (1.0 - 1.0e-4),
+        meets_own,
     }
 }

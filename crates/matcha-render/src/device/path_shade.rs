@@ -108,9 +108,9 @@ pub fn path_closure_context(path: &Path, settings: PathSettings) -> ClosureConte
 
 /// The normal that light selection may rely on: none where light may also come from behind.
 #[inline]
-pub fn path_selection_normal(point: &SurfacePoint, set: &LobeSet) -> Vec3 {
+pub fn path_selection_normal(set: &LobeSet) -> Vec3 {
     if closure_set_reflects_only(set) {
-        point.normal
+        set.frame.n
     } else {
         splat3(0.0)
     }
@@ -140,11 +140,13 @@ pub fn path_meet_surface(
     }
 }
 
-/// The task of a light that was drawn, whose closures give `value` (throughput included).
+/// The task of a light that was drawn, whose closures give `value` (throughput included);
+/// `normal` is the shading normal, bent by displacement.
 #[inline]
 pub fn path_task(
     path: &Path,
     point: &SurfacePoint,
+    normal: Vec3,
     draw: &LightDraw,
     value: Vec3,
     settings: PathSettings,
@@ -152,17 +154,21 @@ pub fn path_task(
     let start = ShadowStart {
         position: point.position,
         shadow_origin: point.shadow_origin,
-        normal: point.normal,
+        normal,
         true_normal: point.true_normal,
     };
     let segment = ray_to_light(start, draw.wi, draw.point, draw.distance >= LIGHT_FAR);
+    let mut leaves = [point.instance, point.primitive];
+    if segment.meets_own {
+        leaves = [LIGHT_NONE, LIGHT_NONE];
+    }
     ShadowTask {
         value,
         origin: segment.origin,
         direction: segment.direction,
         t_min: 0.0,
         t_max: segment.t_max,
-        leaves: [point.instance, point.primitive],
+        leaves,
         casts_shadow: draw.cast_shadow,
         bounce: path.bounce,
         transparent: settings.transparent_bounces,
@@ -184,7 +190,7 @@ pub fn path_try_light(
     set: &LobeSet,
 ) -> ShadowTask {
     let u = sobol_3d(path.seed, path.sample, path.dimension + DRAW_LIGHT);
-    let normal = path_selection_normal(point, set);
+    let normal = path_selection_normal(set);
     let draw = light_sample(lights, point.position, normal, u.x, vec2(u.y, u.z));
     let mut task = path_no_task();
     let tried = draw.kind != LIGHT_IS_NONE && draw.pdf > 0.0;
@@ -204,7 +210,7 @@ pub fn path_try_light(
         }
         // Lights may have negative colours.
         if is_finite3(value) && path_max_element(abs3(value)) > 0.0 {
-            task = path_task(path, point, &draw, value, settings);
+            task = path_task(path, point, set.frame.n, &draw, value, settings);
         }
     }
     task
@@ -243,7 +249,7 @@ pub fn path_go_on(
     let turn = PathTurn {
         position: point.position,
         true_normal: point.true_normal,
-        selection_normal: path_selection_normal(point, set),
+        selection_normal: path_selection_normal(set),
         cone_width: point.cone_width,
         cone_spread: cone_spread_after(path.cone_spread, alpha, diffuse),
         leaves,
