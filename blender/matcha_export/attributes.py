@@ -34,7 +34,8 @@ def on_corners(mesh, attribute, corner_vertices, corner_faces):
     if values is None or not len(values):
         return None
     if attribute.domain == "EDGE":
-        return at_vertices(mesh, values)[corner_vertices]
+        at_vertex = any_at_vertices if attribute.data_type == "BOOLEAN" else at_vertices
+        return at_vertex(mesh, values)[corner_vertices]
     if attribute.domain == "POINT":
         return values[corner_vertices]
     if attribute.domain == "FACE":
@@ -42,10 +43,22 @@ def on_corners(mesh, attribute, corner_vertices, corner_faces):
     return values if attribute.domain == "CORNER" else None
 
 
-def at_vertices(mesh, of_edges):
-    """What Cycles makes of an edge attribute: each vertex has the mean of its edges."""
+def edge_ends(mesh):
     ends = np.empty(2 * len(mesh.edges), dtype=np.int32)
     mesh.edges.foreach_get("vertices", ends)
+    return ends
+
+
+def any_at_vertices(mesh, of_edges):
+    """What Cycles makes of a yes or no at edges: yes at a vertex where one of its edges says so."""
+    values = np.zeros((len(mesh.vertices), of_edges.shape[1]), dtype=np.float32)
+    np.maximum.at(values, edge_ends(mesh), np.repeat(of_edges, 2, axis=0))
+    return values
+
+
+def at_vertices(mesh, of_edges):
+    """What Cycles makes of an edge attribute: each vertex has the mean of its edges."""
+    ends = edge_ends(mesh)
     total = np.zeros((len(mesh.vertices), of_edges.shape[1]))
     np.add.at(total, ends, np.repeat(of_edges, 2, axis=0))
     count = np.bincount(ends, minlength=len(mesh.vertices))

@@ -12,15 +12,20 @@ from .numbers import number, numbers
 def node(glb, scene, depsgraph):
     """Appends camera and node of the active camera; returns the node's index."""
     obj = scene.camera.evaluated_get(depsgraph)
-    # Cameras ignore scale.
-    translation, rotation, _ = obj.matrix_world.decompose()
-    matrix = mathutils.Matrix.LocRotScale(translation, rotation, None)
-    chain = axes.node_chain(axes.aim(np.array(matrix, dtype=np.float64)))
+    chain = axes.node_chain(axes.aim(unscaled(obj.matrix_world)))
     data = obj.data
     index = glb.append("cameras", standard(data, scene))
     entry = {"name": obj.name, **chain[-1], "camera": index}
     entry["extensions"] = {"MATCHA_cycles": {"camera": about(obj, data)}}
     return glb.append("nodes", entry)
+
+
+def unscaled(matrix):
+    """Cameras ignore scale and shear, but one that is negative turns the picture over, as in Cycles."""
+    translation, rotation, scale = matrix.decompose()
+    # Blender tells a mirrored matrix by the sign of all three.
+    sign = math.copysign(1.0, scale.x)
+    return np.array(mathutils.Matrix.LocRotScale(translation, rotation, (sign, sign, sign)), dtype=np.float64)
 
 
 def about(obj, camera):

@@ -50,6 +50,25 @@ def warn_of_left_out(scene, report):
         report.warning("the panorama's range of angles is left out; all around is rendered")
     if scene.cycles.use_fast_gi:
         report.warning("fast global illumination is left out; all light is traced")
+    if scene.render.film_transparent and scene.cycles.film_transparent_glass:
+        report.warning("Transparent Glass is left out; glass covers what is behind it")
+    if scene.render.use_multiview:
+        report.warning("stereoscopy is left out; the camera's own view is rendered")
+    if composites(scene):
+        report.warning("compositing is left out; the picture is as it is rendered")
+
+
+def composites(scene):
+    """Whether Blender would change the picture after rendering. Blender 5 keeps the nodes elsewhere."""
+    if not scene.render.use_compositing:
+        return False
+    if hasattr(scene, "compositing_node_group"):
+        tree = scene.compositing_node_group
+    else:
+        tree = scene.node_tree if scene.use_nodes else None
+    # What joins the layers with the output changes nothing.
+    passive = {"R_LAYERS", "COMPOSITE", "VIEWER", "OUTPUT_FILE", "REROUTE", "FRAME", "GROUP_OUTPUT"}
+    return tree is not None and any(node.type not in passive and not node.mute for node in tree.nodes)
 
 
 def samples(scene, view_layer):

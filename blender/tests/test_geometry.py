@@ -63,11 +63,13 @@ class Geometry(SceneTest):
         obj = bpy.data.objects["material"]
         edges = obj.data.attributes.new("edges", "FLOAT", "EDGE")
         edges.data.foreach_set("value", [float(0 in edge.vertices) for edge in obj.data.edges])
+        marks = obj.data.attributes.new("marks", "BOOLEAN", "EDGE")
+        marks.data.foreach_set("value", [0 in edge.vertices for edge in obj.data.edges])
         obj.vertex_groups.new(name="other").add([1], 0.75, "REPLACE")
         obj.vertex_groups.new(name="weight").add([2], 0.25, "REPLACE")
         mix = tree.nodes.new("ShaderNodeMix")
         mix.data_type = "RGBA"
-        for name, socket in (("edges", mix.inputs[6]), ("weight", mix.inputs[7])):
+        for name, socket in (("edges", mix.inputs[6]), ("weight", mix.inputs[7]), ("marks", mix.inputs[0])):
             node = tree.nodes.new("ShaderNodeAttribute")
             node.attribute_name = name
             tree.links.new(node.outputs["Color"], socket)
@@ -75,11 +77,12 @@ class Geometry(SceneTest):
         file = self.export()
         (mesh,) = file.json["meshes"]
         about = {e["name"]: e for e in mesh["extensions"][NAME]["attributes"]}
-        self.assertEqual(set(about), {"edges", "weight"})
+        self.assertEqual(set(about), {"edges", "marks", "weight"})
         corners = uv_to_blender(file.vertex(0, "TEXCOORD_0"))
         found = {name: file.vertex(0, entry["semantic"]).ravel() for name, entry in about.items()}
         # Both edges of the corner at the origin have 1, one of each of its neighbours.
         np.testing.assert_allclose(found["edges"], 1.0 - 0.5 * corners.sum(axis=1))
+        np.testing.assert_allclose(found["marks"], 1.0 - corners.prod(axis=1))
         np.testing.assert_allclose(found["weight"], 0.25 * corners.prod(axis=1))
 
     def test_only_attributes_that_are_read(self):

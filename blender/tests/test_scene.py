@@ -148,11 +148,39 @@ class Scene(SceneTest):
         cycles.use_layer_samples = "IGNORE"
         self.assertEqual(self.export().root["settings"]["samples"], 100)
 
+    def test_glass_that_lets_the_film_through_is_said(self):
+        self.scene.cycles.film_transparent_glass = True
+        self.assertEqual(self.export().warnings, [])
+        self.scene.render.film_transparent = True
+        self.assertIn("Transparent Glass", " ".join(self.export().warnings))
+
+    def test_compositing_is_said_where_it_changes_something(self):
+        if hasattr(self.scene, "compositing_node_group"):
+            tree = bpy.data.node_groups.new("composite", "CompositorNodeTree")
+            self.scene.compositing_node_group = tree
+        else:
+            self.scene.use_nodes = True
+            tree = self.scene.node_tree
+        tree.nodes.new("CompositorNodeRLayers")
+        self.assertEqual(self.export().warnings, [])
+        glare = tree.nodes.new("CompositorNodeGlare")
+        self.assertIn("compositing", " ".join(self.export().warnings))
+        glare.mute = True
+        self.assertEqual(self.export().warnings, [])
+
+    def test_a_mirrored_camera_stays_mirrored(self):
+        turn = Matrix.Rotation(0.7, 3, "X").to_quaternion()
+        self.camera.matrix_world = Matrix.LocRotScale((1, 2, 3), turn, (-2, 1, 3))
+        node = next(n for n in self.export().json["nodes"] if "camera" in n)
+        mirrored = Matrix.LocRotScale((1, 2, 3), turn, (-1, 1, 1))
+        np.testing.assert_allclose(local(node), axes.TO_GLTF @ np.array(mirrored), atol=1e-6)
+
     def test_what_changes_the_picture_and_is_left_out_is_said(self):
         self.assertEqual(self.export().warnings, [])
         self.scene.render.use_motion_blur = True
         self.scene.render.use_border = True
         self.scene.cycles.use_fast_gi = True
+        self.scene.render.use_multiview = True
         camera = self.camera.data
         camera.type = "PANO"
         owner = camera if hasattr(camera, "panorama_type") else camera.cycles
@@ -161,7 +189,7 @@ class Scene(SceneTest):
         if hasattr(lamp, "light_linking"):
             lamp.light_linking.receiver_collection = bpy.data.collections.new("lit")
         said = " ".join(self.export().warnings)
-        for what in ("motion blur", "render region", "fast global illumination", "range of angles"):
+        for what in ("motion blur", "render region", "fast global illumination", "range of angles", "stereoscopy"):
             self.assertIn(what, said)
         self.assertEqual("light linking" in said, hasattr(lamp, "light_linking"))
 

@@ -147,6 +147,20 @@ fn a_spot_keeps_its_scale() {
     assert_eq!(lengths, [2.0, 3.0, 1.0]);
 }
 
+/// It looks where it did, and left is right.
+#[test]
+fn a_mirrored_camera_turns_the_picture_over() {
+    let camera = |scale: [f32; 3]| {
+        let mut file = cycles();
+        file.json["nodes"][2]["scale"] = json!(scale);
+        file.load().unwrap().scene.camera.transform.matrix3
+    };
+    let (plain, mirrored) = (camera([1.0, 1.0, 1.0]), camera([-2.0, 1.0, 3.0]));
+    assert!((mirrored.x_axis + plain.x_axis).length() < 1e-6);
+    assert!((mirrored.y_axis - plain.y_axis).length() < 1e-6);
+    assert!((mirrored.z_axis - plain.z_axis).length() < 1e-6);
+}
+
 /// Files from before the exporter wrote it have none.
 #[test]
 fn bounces_before_roulette_are_none_where_absent() {

@@ -151,6 +151,24 @@ fn a_light_lights_the_closures_whose_rays_see_it() {
     assert!((lit - 0.1).abs() < 1e-3, "{lit}");
 }
 
+/// A held-out object is a hole for the camera, shining or not, and lights others like any object.
+#[test]
+fn a_holdout_is_one_for_the_camera_alone() {
+    let mut scene = empty(0.9);
+    let floor = add_material(&mut scene, diffuse([0.5; 3]));
+    add_square(&mut scene, Vec3::ZERO, 1000.0, false, floor);
+    let lamp = add_material(&mut scene, emission(1.0));
+    add_square(&mut scene, Vec3::Z * 2.0, 1000.0, true, lamp);
+    scene.instances[1].holdout = true;
+    let lit = render(scene.clone(), &RenderOptions::default());
+    assert!(lit.iter().all(|p| p[3] == 1.0), "the floor covers all");
+    assert!((mean(&lit) - 0.5).abs() < 5e-3, "{}", mean(&lit));
+    scene.instances[0].materials = vec![lamp];
+    scene.instances[0].holdout = true;
+    let hole = render(scene, &RenderOptions::default());
+    assert!(hole.iter().all(|p| *p == [0.0; 4]), "{:?}", hole[0]);
+}
+
 /// Mean of a floor under shining squares at these heights, which face up, shine on both sides and
 /// cast no shadow; only the `sides` are sampled.
 fn floor_under_squares(heights: &[f32], sides: Sides) -> f32 {

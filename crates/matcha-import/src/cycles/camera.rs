@@ -4,11 +4,20 @@ use super::schema;
 use crate::error::{Checked, Fault};
 use crate::plain::hierarchy::{Placed, to_z_up_aimed};
 use crate::report::{Report, ReportKind};
-use glam::Vec2;
+use glam::{Affine3A, Vec2};
 use matcha_render::scene::{Camera, Projection, Scene, SensorFit};
 
 /// Metres in a millimetre.
 const MILLIMETRE: f32 = 1e-3;
+
+/// A camera keeps nothing of its scale but that it is mirrored.
+fn aimed(placed: &Placed) -> Affine3A {
+    let mut aimed = to_z_up_aimed(placed.world);
+    if placed.world.determinant() < 0.0 {
+        aimed.matrix3.x_axis = -aimed.matrix3.x_axis;
+    }
+    aimed
+}
 
 pub(super) fn set(
     source: &schema::Camera,
@@ -35,7 +44,7 @@ pub(super) fn set(
         ));
     }
     let mut camera = Camera {
-        transform: to_z_up_aimed(placed.world),
+        transform: aimed(placed),
         projection: projection(source, &place, report),
         shift: Vec2::from_array(source.shift),
         clip: source.clip,

@@ -19,7 +19,7 @@ use super::light_sample::{
 };
 use super::light_view::{LIGHT_NONE, LightView};
 use super::lobe::{SCATTER_DIFFUSE, SCATTER_SINGULAR, SCATTER_TRANSMIT, SCATTER_TRANSPARENT};
-use super::path_flags::{PATH_DIFFUSE, PATH_ENDS, PATH_FEATURES_DONE, PATH_TERMINATE};
+use super::path_flags::{PATH_CAMERA, PATH_DIFFUSE, PATH_ENDS, PATH_FEATURES_DONE, PATH_TERMINATE};
 use super::path_ray::{ShadowStart, ray_to_light};
 use super::path_start::{DRAW_LIGHT, DRAW_SCATTER};
 use super::path_state::{
@@ -276,14 +276,17 @@ pub fn path_shade(
     held_out: bool,
     task: &mut ShadowTask,
 ) -> bool {
+    // Elsewhere, as in reflections, the object is one like others, as in Cycles.
+    if (path.flags & PATH_CAMERA) != 0 {
+        let mut cut = closure_mean(set.holdout);
+        if held_out {
+            cut = 1.0;
+        }
+        if path_hold_out(path, cut) {
+            return false;
+        }
+    }
     path_meet_surface(lights, path, point, set.emission, distance, settings);
-    let mut cut = closure_mean(set.holdout);
-    if held_out {
-        cut = 1.0;
-    }
-    if path_hold_out(path, cut) {
-        return false;
-    }
     if (path.flags & PATH_FEATURES_DONE) == 0 {
         let albedo = closure_set_albedo(set);
         let normal = closure_set_normal(set);

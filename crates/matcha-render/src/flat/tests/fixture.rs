@@ -119,6 +119,7 @@ fn mesh(random: &mut Random, triangles: usize, rich: bool) -> Mesh {
         generated_origin: Vec3::new(0.1, 0.2, 0.3),
         generated_size: Vec3::new(2.0, 0.0, 0.5),
         generated: if rich { three(true) } else { vec![] },
+        islands: vec![],
         positions,
         indices,
     }
