@@ -5,7 +5,7 @@ use anyhow::{Context, Result, bail};
 use serde::Serialize;
 use std::ffi::OsStr;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A kind of picture file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,29 @@ pub(crate) fn check_file(path: &Path) -> Result<()> {
         bail!("{}: is no name of a file", path.display());
     }
     check_folder(folder_of(path))
+}
+
+/// Refuses statistics that could not be written later, or that would take the place of another
+/// file of this run.
+pub(crate) fn check_statistics(path: &Path, others: &[PathBuf]) -> Result<()> {
+    check_file(path)?;
+    match others.iter().find(|other| is_same(path, other)) {
+        Some(other) => bail!(
+            "{}: the statistics would take the place of {}",
+            path.display(),
+            other.display()
+        ),
+        None => Ok(()),
+    }
+}
+
+/// Whether two names are of one file, which need not be there yet.
+fn is_same(a: &Path, b: &Path) -> bool {
+    let whole = |path: &Path| {
+        let folder = folder_of(path).canonicalize().ok()?;
+        Some(folder.join(path.file_name()?))
+    };
+    whole(a).is_some() && whole(a) == whole(b)
 }
 
 /// Makes a folder where there is none, and refuses one that nothing can be written to.

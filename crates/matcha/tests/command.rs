@@ -217,6 +217,32 @@ fn a_cache_beyond_memory_is_refused() {
 }
 
 #[test]
+fn statistics_take_no_other_files_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene::write(folder.path());
+    let before = std::fs::read(&scene).unwrap();
+    let (picture, pictures) = (folder.path().join("a.png"), folder.path().join("out"));
+    let report = pictures.join("report.json");
+    for (command, output, stats) in [
+        ("render", &picture, &picture),
+        ("render", &picture, &scene),
+        ("compare", &pictures, &report),
+    ] {
+        let arguments = [
+            command,
+            text(&scene),
+            "-o",
+            text(output),
+            "--stats",
+            text(stats),
+        ];
+        assert_refused(&arguments, "would take the place of");
+    }
+    assert!(!picture.exists() && !report.exists());
+    assert_eq!(std::fs::read(&scene).unwrap(), before);
+}
+
+#[test]
 fn a_picture_beyond_memory_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene::write(folder.path());

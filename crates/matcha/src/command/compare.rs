@@ -13,6 +13,15 @@ use image::RgbImage;
 use matcha_render::backend::Backend;
 use serde::Serialize;
 
+const WITHOUT: &str = "without.exr";
+const WITH: &str = "with.exr";
+const DIFFERENCE: &str = "difference.png";
+const HEAT_MAP: &str = "heatmap.png";
+const FIGURE: &str = "figure.png";
+const REPORT: &str = "report.json";
+/// What is written.
+const FILES: [&str; 6] = [WITHOUT, WITH, DIFFERENCE, HEAT_MAP, FIGURE, REPORT];
+
 /// Both renderings' statistics.
 #[derive(Serialize)]
 struct BothStatistics {
@@ -23,7 +32,9 @@ struct BothStatistics {
 pub(crate) fn run(arguments: &CompareArguments) -> Result<End> {
     output::make_folder(&arguments.output)?;
     if let Some(stats) = &arguments.options.stats {
-        output::check_file(stats)?;
+        let mut others = FILES.map(|name| arguments.output.join(name)).to_vec();
+        others.push(arguments.scene.scene.clone());
+        output::check_statistics(stats, &others)?;
     }
     let device = Device::choose(&arguments.options)?;
     let loaded = Loaded::new(&arguments.scene, &arguments.options)?;
@@ -97,16 +108,10 @@ fn write_all(
     [without, with]: [&dyn Backend; 2],
 ) -> Result<()> {
     let path = |name: &str| arguments.output.join(name);
-    output::write(&path("without.exr"), &exr_file::encode(without.film())?)?;
-    output::write(&path("with.exr"), &exr_file::encode(with.film())?)?;
-    output::write(
-        &path("difference.png"),
-        &png_file::encode(&shown.difference)?,
-    )?;
-    output::write(&path("heatmap.png"), &png_file::encode(&shown.heat_map)?)?;
-    output::write(
-        &path("figure.png"),
-        &png_file::encode(&shown.figure(report))?,
-    )?;
-    output::write_json(&path("report.json"), report)
+    output::write(&path(WITHOUT), &exr_file::encode(without.film())?)?;
+    output::write(&path(WITH), &exr_file::encode(with.film())?)?;
+    output::write(&path(DIFFERENCE), &png_file::encode(&shown.difference)?)?;
+    output::write(&path(HEAT_MAP), &png_file::encode(&shown.heat_map)?)?;
+    output::write(&path(FIGURE), &png_file::encode(&shown.figure(report))?)?;
+    output::write_json(&path(REPORT), report)
 }

@@ -13,7 +13,8 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<End> {
     let format = output::format_of(&arguments.output)?;
     output::check_file(&arguments.output)?;
     if let Some(stats) = &arguments.options.stats {
-        output::check_file(stats)?;
+        let others = [arguments.output.clone(), arguments.scene.scene.clone()];
+        output::check_statistics(stats, &others)?;
     }
     let device = Device::choose(&arguments.options)?;
     let loaded = Loaded::new(&arguments.scene, &arguments.options)?;
